@@ -1,0 +1,7 @@
+#include "base/version.h"
+
+namespace barkridge {
+
+const char* version() { return BARKRIDGE_VERSION; }
+
+}  // namespace barkridge

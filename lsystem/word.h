@@ -1,0 +1,35 @@
+#pragma once
+// The string of modules that an L-system rewrites.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace barkridge {
+
+/// A string of parametric modules in two flat arrays: symbols with the place of their parameters.
+struct Word {
+    struct Module {
+        char symbol = 0;
+        std::uint8_t parameter_count = 0;
+        std::uint16_t birth_step = 0;  ///< the derivation step that made it, saturating
+        std::uint32_t first_parameter = 0;
+    };
+    std::vector<Module> modules;
+    std::vector<float> parameters;
+
+    std::span<const float> parameters_of(const Module& module) const {
+        return {parameters.data() + module.first_parameter, module.parameter_count};
+    }
+};
+
+/// cpfg's text form: modules in order, parameters by `%g`, a line break before a module once 70 characters are on the line.
+std::string to_string(const Word& word);
+
+/// Reads cpfg's text form; white space between modules is ignored. Throws `InputError`.
+Word parse_word(std::string_view text, const std::string& file);
+
+}  // namespace barkridge

@@ -1,0 +1,93 @@
+#pragma once
+// The renderer's door: what to look at, from where, in which light; and the picture that comes out.
+
+#include <cstdint>
+#include <vector>
+
+#include "base/progress.h"
+#include "blobtree/field.h"
+
+namespace barkridge {
+
+/// Linear Rec. 709 colour, no unit.
+using Color = glm::dvec3;
+
+struct Camera {
+    enum class Projection { kPerspective, kOrthographic };
+    Projection projection = Projection::kPerspective;
+    Vec3 position{0, 0, 5};
+    Vec3 target{0, 0, 0};
+    Vec3 up{0, 1, 0};
+    /// Perspective: full vertical angle of view.
+    double fov_degrees = 35;
+    /// Orthographic: height of the picture in scene units.
+    double height = 2;
+};
+
+/// A distant light. The direction points from the scene to the sun.
+struct Sun {
+    Vec3 direction{0.5, 0.7, 0.6};
+    Color color{1.0, 0.96, 0.88};
+    /// Irradiance on a surface that faces the sun, divided by pi: a white Lambert surface then has this radiance.
+    double intensity = 2.5;
+    /// Full angle the sun subtends; 0 gives hard shadows.
+    double angle_degrees = 0.53;
+};
+
+/// A sky dome, from `horizon` to `zenith` by the direction's height; it lights, and it is seen behind everything.
+struct Sky {
+    Color zenith{0.35, 0.52, 0.85};
+    Color horizon{0.80, 0.87, 0.95};
+    double intensity = 1;
+};
+
+/// The horizontal plane y = height.
+struct Ground {
+    bool enabled = true;
+    double height = 0;
+    Color color{0.32, 0.30, 0.24};
+};
+
+/// Lambert plus a rough specular lobe (GGX).
+struct Material {
+    Color color{0.42, 0.36, 0.28};
+    double specular = 0.04;  ///< reflectance at normal incidence, 0 for none
+    double roughness = 0.6;  ///< in (0, 1]
+};
+
+struct RenderScene {
+    Camera camera;
+    Sun sun;
+    Sky sky;
+    Ground ground;
+    Material material;
+};
+
+/// A rectangle of pixels: x to the right, y down from the top.
+struct PixelRegion {
+    int x = 0, y = 0, width = 0, height = 0;
+};
+
+struct RenderOptions {
+    int width = 768, height = 1024;
+    /// Most samples a pixel; they are spent where neighbouring samples differ.
+    int samples_per_pixel = 9;
+    std::uint64_t seed = 0;
+    /// The part to render; zero width means all.
+    PixelRegion region;
+    Progress progress;
+};
+
+/// A picture or a region of one: linear, premultiplied RGBA, rows from the top.
+struct Image {
+    int full_width = 0, full_height = 0;
+    PixelRegion region;
+    std::vector<float> rgba;  ///< 4 * region.width * region.height
+};
+
+/// Renders the solid of `field`. Every pixel is a function of field, scene, seed and its own place in the full picture:
+/// not of region, threads or machine load. Rays find the first point of the solid to 1e-6 of the scene's size; nothing is stepped over. Throws `InputError`
+/// for settings outside their ranges, `Cancelled`.
+Image render(const Field& field, const RenderScene& scene, const RenderOptions& options);
+
+}  // namespace barkridge
