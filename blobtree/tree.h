@@ -100,8 +100,9 @@ struct Contact {
 
 // ---- Warps: F(w(p)), one child.
 
-/// Bends the straight piece from `base` to `tip` into an arc of the same ends and a total angle, bulging towards
-/// `direction`; the rest of space follows straight past the ends. [docs/field.md, "Bend"; GMW04, section 3.6]
+/// Bends the child's axis, which starts at `base` towards `tip`, into a circular arc from `base` to `tip` that bulges
+/// towards `direction`. The arc is longer than its chord: the child's point at `arc_length(bend)` along the axis comes to
+/// lie at `tip`. Past both ends space follows straight. [docs/field.md, "Bend"; GMW04, section 3.6]
 struct Bend {
     Vec3 base{0}, tip{0, 1, 0};  ///< differ
     Vec3 direction{1, 0, 0};     ///< not along the axis; only its part across the axis counts
@@ -109,6 +110,7 @@ struct Bend {
 
     bool operator==(const Bend&) const = default;
 };
+double arc_length(const Bend& bend);
 /// Turns space about an axis, by an angle that grows with the distance along it.
 struct Twist {
     Vec3 origin{0}, axis{0, 1, 0};
@@ -160,6 +162,14 @@ struct BlobTree {
 /// Throws `InputError` at the first node that breaks a rule stated above: a number out of range or not finite, a wrong number
 /// of children, a child that does not come before its parent or has two.
 void check(const BlobTree& tree);
+/// The same for a node by itself: its numbers and how many children it has.
+void check(const Node& node);
+
+/// The number of nodes on the longest way from the root to a primitive; 0 for the empty tree.
+std::size_t depth(const BlobTree& tree);
+
+/// The smallest surface radius among the primitives, what a mesh must resolve; 0 without primitives.
+double thinnest_radius(const BlobTree& tree);
 
 /// The text form, readable by `parse_tree`, which gives back an equal tree up to the numbers of its nodes:
 ///     sum {
