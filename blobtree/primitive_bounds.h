@@ -13,15 +13,15 @@ Box support_of(const Disc& disc);
 Box support_of(const Ring& ring);
 Box support_of(const Polygon& polygon);
 
-/// Bounds of a primitive on a box from those on the part inside the primitive's support, which `of_part` computes: outside it
-/// the field is zero.
+/// Bounds of a primitive on a box from those on the part inside the primitive's support, which `of_part` computes:
+/// outside it the field is zero.
 template <typename OfPart>
 FieldBounds bounds_where_supported(const Box& support, const Box& box, OfPart of_part) {
-    const Box part = intersect(support, box);
-    if (part.empty()) return {};
-    FieldBounds bounds = of_part(part);
-    if (part.lo != box.lo || part.hi != box.hi) bounds.value.lo = 0;
-    return bounds;
+  const Box part = intersect(support, box);
+  if (part.empty()) return {};
+  FieldBounds bounds = of_part(part);
+  if (part.lo != box.lo || part.hi != box.hi) bounds.value.lo = 0;
+  return bounds;
 }
 
 /// Conservative, and exact to first order in the box's size.
