@@ -18,29 +18,29 @@ using Mat3 = glm::dmat3;
 
 /// A closed range of numbers; empty when `lo > hi`.
 struct Interval {
-    double lo = std::numeric_limits<double>::infinity();
-    double hi = -std::numeric_limits<double>::infinity();
+  double lo = std::numeric_limits<double>::infinity();
+  double hi = -std::numeric_limits<double>::infinity();
 
-    bool empty() const { return lo > hi; }
-    bool contains(double x) const { return lo <= x && x <= hi; }
+  bool empty() const { return lo > hi; }
+  bool contains(double x) const { return lo <= x && x <= hi; }
 };
 
 /// An axis-aligned closed box; the default one is empty and the neutral element of `unite`.
 struct Box {
-    Vec3 lo{std::numeric_limits<double>::infinity()};
-    Vec3 hi{-std::numeric_limits<double>::infinity()};
+  Vec3 lo{std::numeric_limits<double>::infinity()};
+  Vec3 hi{-std::numeric_limits<double>::infinity()};
 
-    bool empty() const { return lo.x > hi.x || lo.y > hi.y || lo.z > hi.z; }
-    Vec3 center() const { return 0.5 * (lo + hi); }
-    Vec3 half_extent() const { return 0.5 * (hi - lo); }
-    /// Length of the diagonal; 0 for an empty box.
-    double diagonal() const { return empty() ? 0.0 : glm::length(hi - lo); }
-    bool contains(const Vec3& p) const {
-        return lo.x <= p.x && p.x <= hi.x && lo.y <= p.y && p.y <= hi.y && lo.z <= p.z && p.z <= hi.z;
-    }
-    bool overlaps(const Box& b) const {
-        return lo.x <= b.hi.x && b.lo.x <= hi.x && lo.y <= b.hi.y && b.lo.y <= hi.y && lo.z <= b.hi.z && b.lo.z <= hi.z;
-    }
+  bool empty() const { return lo.x > hi.x || lo.y > hi.y || lo.z > hi.z; }
+  Vec3 center() const { return 0.5 * (lo + hi); }
+  Vec3 half_extent() const { return 0.5 * (hi - lo); }
+  /// Length of the diagonal; 0 for an empty box.
+  double diagonal() const { return empty() ? 0.0 : glm::length(hi - lo); }
+  bool contains(const Vec3& p) const {
+    return lo.x <= p.x && p.x <= hi.x && lo.y <= p.y && p.y <= hi.y && lo.z <= p.z && p.z <= hi.z;
+  }
+  bool overlaps(const Box& b) const {
+    return lo.x <= b.hi.x && b.lo.x <= hi.x && lo.y <= b.hi.y && b.lo.y <= hi.y && lo.z <= b.hi.z && b.lo.z <= hi.z;
+  }
 };
 
 inline Box unite(const Box& a, const Box& b) { return {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)}; }
@@ -51,20 +51,20 @@ inline Box grown(const Box& b, double margin) { return {b.lo - Vec3(margin), b.h
 
 /// The points `origin + t * direction`, `t >= 0`; `direction` has length 1.
 struct Ray {
-    Vec3 origin{0};
-    Vec3 direction{0, 0, -1};
+  Vec3 origin{0};
+  Vec3 direction{0, 0, -1};
 
-    Vec3 at(double t) const { return origin + t * direction; }
+  Vec3 at(double t) const { return origin + t * direction; }
 };
 
 /// Two unit vectors that complete the unit vector `n` to a right-handed frame (t, b, n), continuous but for n.z = -1.
 /// [Duff et al. 2017, "Building an Orthonormal Basis, Revisited"]
 inline void complete_frame(const Vec3& n, Vec3& t, Vec3& b) {
-    const double sign = n.z >= 0 ? 1.0 : -1.0;
-    const double p = -1.0 / (sign + n.z);
-    const double q = n.x * n.y * p;
-    t = Vec3(1.0 + sign * n.x * n.x * p, sign * q, -sign * n.x);
-    b = Vec3(q, sign + n.y * n.y * p, -n.y);
+  const double sign = n.z >= 0 ? 1.0 : -1.0;
+  const double p = -1.0 / (sign + n.z);
+  const double q = n.x * n.y * p;
+  t = Vec3(1.0 + sign * n.x * n.x * p, sign * q, -sign * n.x);
+  b = Vec3(q, sign + n.y * n.y * p, -n.y);
 }
 
 }  // namespace barkridge

@@ -2,8 +2,8 @@
 // What everyone outside this room sees of a model: a scalar field, the solid it encloses, and bounds of both.
 //
 // Conventions of the whole program [GMW04, section 2.2]: the solid is { p : F(p) >= kIsoValue }, a point with F exactly
-// at the iso-value is inside; the outward normal is -grad F / |grad F|; fields have no unit, and F = 0 outside a field's
-// support.
+// at the iso-value is inside; the outward normal is -grad F / |grad F|; fields have no unit, and F = 0 outside a
+// field's support.
 
 #include <cstddef>
 #include <memory>
@@ -17,37 +17,37 @@ inline constexpr double kIsoValue = 0.5;
 
 /// What is known about a field on a region.
 struct FieldBounds {
-    /// Encloses every value.
-    Interval value{0, 0};
-    /// At least the length of every gradient, and a Lipschitz constant of the field on the region if that is convex.
-    double slope = 0;
+  /// Encloses every value.
+  Interval value{0, 0};
+  /// At least the length of every gradient, and a Lipschitz constant of the field on the region if that is convex.
+  double slope = 0;
 };
 
 /// An immutable scalar field. Every member may be called from many threads at once.
 class Field {
  public:
-    virtual ~Field() = default;
+  virtual ~Field() = default;
 
-    /// A box outside which the field is zero; empty for the zero field.
-    virtual Box support() const = 0;
+  /// A box outside which the field is zero; empty for the zero field.
+  virtual Box support() const = 0;
 
-    /// F at every point. The spans have equal lengths. Equal points give equal bits, whatever the rest of the batch.
-    virtual void values(std::span<const Vec3> points, std::span<double> values) const = 0;
+  /// F at every point. The spans have equal lengths. Equal points give equal bits, whatever the rest of the batch.
+  virtual void values(std::span<const Vec3> points, std::span<double> values) const = 0;
 
-    /// F and grad F at every point, F as by `values` to the bit. Where F has a crease, the gradient is one side's.
-    virtual void values_and_gradients(std::span<const Vec3> points, std::span<double> values,
-                                      std::span<Vec3> gradients) const = 0;
+  /// F and grad F at every point, F as by `values` to the bit. Where F has a crease, the gradient is one side's.
+  virtual void values_and_gradients(std::span<const Vec3> points, std::span<double> values,
+                                    std::span<Vec3> gradients) const = 0;
 
-    /// Bounds over a non-empty box: conservative, and converging to the point's value as the box shrinks.
-    virtual FieldBounds bounds(const Box& box) const = 0;
+  /// Bounds over a non-empty box: conservative, and converging to the point's value as the box shrinks.
+  virtual FieldBounds bounds(const Box& box) const = 0;
 
-    /// The same field for use inside `box` only, without all that cannot matter there: values and gradients at points of
-    /// the box agree to the bit with this field's, bounds of boxes inside it are at least as tight. Outside `box` nothing
-    /// is promised.
-    virtual std::shared_ptr<const Field> restricted(const Box& box) const = 0;
+  /// The same field for use inside `box` only, without all that cannot matter there: values and gradients at points of
+  /// the box agree to the bit with this field's, bounds of boxes inside it are at least as tight. Outside `box` nothing
+  /// is promised.
+  virtual std::shared_ptr<const Field> restricted(const Box& box) const = 0;
 
-    /// A measure of the work of one evaluation: the number of primitives. 0 for the zero field.
-    virtual std::size_t primitive_count() const = 0;
+  /// A measure of the work of one evaluation: the number of primitives. 0 for the zero field.
+  virtual std::size_t primitive_count() const = 0;
 };
 
 }  // namespace barkridge

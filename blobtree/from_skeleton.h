@@ -7,28 +7,28 @@ namespace barkridge {
 
 /// What happens where internodes meet.
 enum class JunctionKind {
-    kRidge,   ///< branches touch by precise contact modelling and raise a bark ridge [GMW04, section 3.4]
-    kSmooth,  ///< branches blend by summation [GMW04, section 3.3]
+  kRidge,   ///< branches touch by precise contact modelling and raise a bark ridge [GMW04, section 3.4]
+  kSmooth,  ///< branches blend by summation [GMW04, section 3.3]
 };
 
 /// How a parent hands over to its children.
 enum class JointKind {
-    kFaded,  ///< fields fade along the axes with weights that sum to one (docs/field.md)
-    kPaper,  ///< skeletons are shortened and displaced [GMW04, eqs. 4, 7, 8]
+  kFaded,  ///< fields fade along the axes with weights that sum to one (docs/field.md)
+  kPaper,  ///< skeletons are shortened and displaced [GMW04, eqs. 4, 7, 8]
 };
 
 struct TreeOptions {
-    JunctionKind junction = JunctionKind::kRidge;
-    JointKind joint = JointKind::kFaded;
-    ContactShape contact;
-    /// Total angle by which every internode that is not collinear with its parent is bent; 0 for straight ones.
-    double bend_angle_degrees = 0;
+  JunctionKind junction = JunctionKind::kRidge;
+  JointKind joint = JointKind::kFaded;
+  ContactShape contact;
+  /// Total angle by which every internode that is not collinear with its parent is bent; 0 for straight ones.
+  double bend_angle_degrees = 0;
 };
 
-/// The BlobTree of a plant: F(A) = F_A + J(F(B_1), .., F(B_m)) for an internode A that carries B_1 .. B_m, J being contact or
-/// sum by the junction's kind [GMW04, eqs. 5, 6]. Roots that start at the same point are joined like children of the
-/// ground; plants rooted apart are united and do not blend. Cost: linear in internodes, whatever the depth.
-/// Throws `InputError` for contact shapes or bend angles outside their ranges.
+/// The BlobTree of a plant: F(A) = F_A + J(F(B_1), .., F(B_m)) for an internode A that carries B_1 .. B_m, J being
+/// contact or sum by the junction's kind [GMW04, eqs. 5, 6]. Roots that start at the same point are joined like
+/// children of the ground; plants rooted apart are united and do not blend. Cost: linear in internodes, whatever the
+/// depth. Throws `InputError` for contact shapes or bend angles outside their ranges.
 BlobTree tree_from_skeleton(const Skeleton& skeleton, const TreeOptions& options = {});
 
 }  // namespace barkridge

@@ -1,0 +1,32 @@
+#pragma once
+// The deformation of a field where it touches another. [docs/field.md, "Precise contact"; GMW04, section 2.3; after
+// Cani 1993]
+
+#include "base/geometry.h"
+#include "blobtree/tree.h"
+
+namespace barkridge {
+
+/// h(x): what a child whose field is x below the iso-value adds to the one it touches; 0 outside [0, width]. h(0) = 0,
+/// h'(0) = 1, its maximum is `swelling` at width / 2, and it is C1.
+double contact_expansion(const ContactShape& shape, double x);
+double contact_expansion_slope(const ContactShape& shape, double x);
+
+/// What a child with field `f` does to another: -(f - T) where it presses, h(T - f) where it only nears; and its
+/// derivative.
+inline double contact_effect(const ContactShape& shape, double f) {
+  return f >= kIsoValue ? kIsoValue - f : contact_expansion(shape, kIsoValue - f);
+}
+inline double contact_effect_slope(const ContactShape& shape, double f) {
+  return f >= kIsoValue ? -1.0 : -contact_expansion_slope(shape, kIsoValue - f);
+}
+
+/// The smallest and largest expansion and the steepest effect of a child whose field lies in `f`.
+struct ContactRange {
+  double lowest_expansion = 0;
+  double highest_expansion = 0;
+  double steepest_effect = 0;
+};
+ContactRange contact_range(const ContactShape& shape, const Interval& f);
+
+}  // namespace barkridge

@@ -1,0 +1,289 @@
+#include <algorithm>
+#include <limits>
+
+#include "blobtree/field_program.h"
+#include "blobtree/operator_bounds.h"
+#include "blobtree/primitive_bounds.h"
+
+namespace barkridge {
+
+namespace {
+
+using Op = FieldInstruction::Op;
+
+// A field on the stack: its bounds, and where its code starts in the program being written. A field that is zero on the
+// box is not live and has no code.
+struct Operand {
+  FieldBounds bounds;
+  std::size_t start = 0;
+  bool live = false;
+};
+
+struct OpenWarp {
+  Box outer_box;
+  double stretch;
+  std::size_t start;
+};
+
+bool is_zero(const FieldBounds& bounds) { return bounds.value.lo == 0 && bounds.value.hi == 0; }
+
+// Memory for one thread's walks, kept between calls.
+struct Scratch {
+  std::vector<Operand> stack;
+  std::vector<OpenWarp> warps;
+  std::vector<Operand> operands;
+  std::vector<FieldBounds> children;
+};
+
+class Bounder {
+ public:
+  Bounder(const FieldProgramData& data, const Box& box, std::vector<FieldInstruction>& rest, Scratch& scratch)
+      : data_(data),
+        box_(box),
+        rest_(rest),
+        stack_(scratch.stack),
+        warps_(scratch.warps),
+        operands_(scratch.operands),
+        children_(scratch.children) {
+    stack_.clear();
+    warps_.clear();
+  }
+
+  FieldBounds run(std::span<const FieldInstruction> code) {
+    for (const FieldInstruction& instruction : code) step(instruction);
+    return stack_.empty() ? FieldBounds{} : stack_.back().bounds;
+  }
+
+ private:
+  void step(const FieldInstruction& instruction) {
+    switch (instruction.op) {
+      case Op::kZero:
+        push(instruction, {}, true);
+        break;
+      case Op::kCone: {
+        const auto& data = data_.cones[instruction.index];
+        push_primitive(instruction, data.support, [&](const Box& part) { return bounds_of(data.cone, part); });
+        break;
+      }
+      case Op::kFadedCone: {
+        const auto& data = data_.faded_cones[instruction.index];
+        push_primitive(instruction, data.support,
+                       [&](const Box& part) { return bounds_of(data.cone, data.frame, part); });
+        break;
+      }
+      case Op::kOther: {
+        const auto& data = data_.others[instruction.index];
+        push_primitive(instruction, data.support, [&](const Box& part) {
+          return std::visit([&](const auto& primitive) { return bounds_of(primitive, part); }, data.primitive);
+        });
+        break;
+      }
+      case Op::kNegate:
+        negate(instruction);
+        break;
+      case Op::kEnterWarp:
+        enter(instruction);
+        break;
+      case Op::kLeaveWarp:
+        leave(instruction);
+        break;
+      case Op::kSum:
+      case Op::kRicci: {
+        keep_live(instruction.count);
+        // (F^n)^(1/n) is not F to the bit, so a lone operand of a Ricci blend stays in its node.
+        finish(instruction, instruction.op == Op::kRicci);
+        break;
+      }
+      case Op::kUnion: {
+        keep_live_or_zero(instruction.count);
+        const double lowest = highest_lower_bound();
+        drop_if([&](const FieldBounds& b) { return b.value.hi < lowest; });
+        finish(instruction);
+        break;
+      }
+      case Op::kContact: {
+        keep_live_or_zero(instruction.count);
+        // A child too weak to deform the others, and never the highest, does nothing.
+        const double lowest = highest_lower_bound();
+        const double weakest = kIsoValue - data_.contacts[instruction.index].width;
+        drop_if([&](const FieldBounds& b) { return b.value.hi < lowest && b.value.hi <= weakest; });
+        finish(instruction);
+        break;
+      }
+      case Op::kIntersection:
+        intersection(instruction);
+        break;
+      case Op::kDifference:
+        difference(instruction);
+        break;
+    }
+  }
+
+  template <typename OfPart>
+  void push_primitive(const FieldInstruction& instruction, const Box& support, OfPart of_part) {
+    const FieldBounds bounds = bounds_where_supported(support, box_, of_part);
+    push(instruction, bounds, !is_zero(bounds));
+  }
+
+  void push(const FieldInstruction& instruction, const FieldBounds& bounds, bool live) {
+    stack_.push_back({bounds, rest_.size(), live});
+    if (live) rest_.push_back(instruction);
+  }
+
+  void negate(const FieldInstruction& instruction) {
+    Operand& top = stack_.back();
+    if (!top.live) return;
+    top.bounds.value = {-top.bounds.value.hi, -top.bounds.value.lo};
+    rest_.push_back(instruction);
+  }
+
+  void enter(const FieldInstruction& instruction) {
+    const WarpedBox warped = data_.warps[instruction.index].map(box_);
+    warps_.push_back({box_, warped.stretch, rest_.size()});
+    rest_.push_back(instruction);
+    box_ = warped.box;
+  }
+
+  void leave(const FieldInstruction& instruction) {
+    const OpenWarp warp = warps_.back();
+    warps_.pop_back();
+    box_ = warp.outer_box;
+    Operand& top = stack_.back();
+    top.start = warp.start;
+    if (!top.live) {
+      rest_.resize(warp.start);
+      return;
+    }
+    top.bounds.slope *= warp.stretch;
+    rest_.push_back(instruction);
+  }
+
+  // ---- Operators. Their operands move from the stack to `operands_`; those that drop out lose their code.
+
+  void take(std::size_t count) {
+    operands_.assign(stack_.end() - static_cast<std::ptrdiff_t>(count), stack_.end());
+    stack_.resize(stack_.size() - count);
+    start_ = operands_.front().start;
+  }
+
+  void keep_live(std::size_t count) {
+    take(count);
+    std::erase_if(operands_, [](const Operand& o) { return !o.live; });
+  }
+
+  // For operators in which a zero operand matters where the others are negative.
+  void keep_live_or_zero(std::size_t count) {
+    keep_live(count);
+    if (operands_.size() == count || operands_.empty()) return;
+    if (std::any_of(operands_.begin(), operands_.end(), [](const Operand& o) { return o.bounds.value.lo < 0; })) {
+      push_zero_operand();
+    }
+  }
+
+  void push_zero_operand() {
+    operands_.push_back({{}, rest_.size(), true});
+    rest_.push_back({Op::kZero, 0, 0});
+  }
+
+  double highest_lower_bound() const {
+    double highest = -std::numeric_limits<double>::infinity();
+    for (const Operand& operand : operands_) highest = std::max(highest, operand.bounds.value.lo);
+    return highest;
+  }
+
+  template <typename Condition>
+  void drop_if(Condition condition) {
+    for (std::size_t k = operands_.size(); k-- > 0;) {
+      if (!condition(operands_[k].bounds)) continue;
+      const std::size_t from = operands_[k].start;
+      const std::size_t to = k + 1 < operands_.size() ? operands_[k + 1].start : rest_.size();
+      rest_.erase(rest_.begin() + static_cast<std::ptrdiff_t>(from), rest_.begin() + static_cast<std::ptrdiff_t>(to));
+      for (std::size_t later = k + 1; later < operands_.size(); ++later) operands_[later].start -= to - from;
+      operands_.erase(operands_.begin() + static_cast<std::ptrdiff_t>(k));
+    }
+  }
+
+  void finish(FieldInstruction instruction, bool keep_when_single = false) {
+    if (operands_.empty()) {
+      rest_.resize(start_);
+      stack_.push_back({{}, start_, false});
+      return;
+    }
+    if (operands_.size() == 1 && !keep_when_single) {
+      stack_.push_back({operands_[0].bounds, start_, true});
+      return;
+    }
+    children_.clear();
+    for (const Operand& operand : operands_) children_.push_back(operand.bounds);
+    instruction.count = static_cast<std::uint32_t>(operands_.size());
+    rest_.push_back(instruction);
+    stack_.push_back({bounds_of_node(instruction), start_, true});
+  }
+
+  FieldBounds bounds_of_node(const FieldInstruction& instruction) const {
+    switch (instruction.op) {
+      case Op::kSum:
+        return bounds_of(Sum{}, children_);
+      case Op::kRicci:
+        return bounds_of(Ricci{data_.exponents[instruction.index]}, children_);
+      case Op::kUnion:
+        return bounds_of(Union{}, children_);
+      case Op::kIntersection:
+        return bounds_of(Intersection{}, children_);
+      case Op::kDifference:
+        return bounds_of(Difference{}, children_);
+      case Op::kContact:
+        return bounds_of(Contact{data_.contacts[instruction.index]}, children_);
+      default:
+        return {};
+    }
+  }
+
+  void intersection(const FieldInstruction& instruction) {
+    const std::size_t count = instruction.count;
+    keep_live(count);
+    if (operands_.size() < count) {
+      // min(0, ..) is 0 unless another operand is negative.
+      drop_if([](const FieldBounds& b) { return b.value.lo >= 0; });
+      if (!operands_.empty()) push_zero_operand();
+    }
+    double highest = std::numeric_limits<double>::infinity();
+    for (const Operand& operand : operands_) highest = std::min(highest, operand.bounds.value.hi);
+    drop_if([&](const FieldBounds& b) { return b.value.lo > highest; });
+    finish(instruction);
+  }
+
+  void difference(const FieldInstruction& instruction) {
+    take(2);
+    const Operand a = operands_[0], b = operands_[1];
+    // Zero without anything zero; whole where nothing is taken away, or where the complement is never the smaller.
+    if (!a.live) {
+      operands_.clear();
+    } else if (!b.live || b.bounds.value.hi <= 0 || a.bounds.value.hi <= 2 * kIsoValue - b.bounds.value.hi) {
+      operands_.pop_back();
+      rest_.resize(b.start);
+    }
+    finish(instruction);
+  }
+
+  const FieldProgramData& data_;
+  Box box_;
+  std::vector<FieldInstruction>& rest_;
+  std::vector<Operand>& stack_;
+  std::vector<OpenWarp>& warps_;
+  std::vector<Operand>& operands_;
+  std::vector<FieldBounds>& children_;
+  std::size_t start_ = 0;
+};
+
+}  // namespace
+
+FieldBounds bound(const FieldProgram& program, const Box& box, std::vector<FieldInstruction>* rest) {
+  thread_local Scratch scratch;
+  thread_local std::vector<FieldInstruction> discarded;
+  std::vector<FieldInstruction>& out = rest ? *rest : discarded;
+  out.clear();
+  return Bounder(*program.data, box, out, scratch).run(program.code);
+}
+
+}  // namespace barkridge

@@ -1,0 +1,26 @@
+#pragma once
+// Bounds of an operator's field from those of its children. [docs/field.md, "Bounds"]
+
+#include <span>
+#include <vector>
+
+#include "blobtree/field.h"
+#include "blobtree/tree.h"
+
+namespace barkridge {
+
+FieldBounds bounds_of(const Sum&, std::span<const FieldBounds> children);
+FieldBounds bounds_of(const Ricci& ricci, std::span<const FieldBounds> children);
+FieldBounds bounds_of(const Union&, std::span<const FieldBounds> children);
+FieldBounds bounds_of(const Intersection&, std::span<const FieldBounds> children);
+FieldBounds bounds_of(const Difference&, std::span<const FieldBounds> children);
+FieldBounds bounds_of(const Negative&, std::span<const FieldBounds> children);
+FieldBounds bounds_of(const Contact& contact, std::span<const FieldBounds> children);
+
+/// A box outside which a node's field is zero, from those of all earlier nodes.
+Box support_of(const Node& node, std::span<const Box> supports);
+
+/// That of every node.
+std::vector<Box> supports_of(const BlobTree& tree);
+
+}  // namespace barkridge

@@ -1,0 +1,41 @@
+#pragma once
+// Where a primitive's field is non-zero, and what it can be on a box. [docs/field.md, "Bounds"]
+
+#include "blobtree/field.h"
+#include "blobtree/primitive.h"
+#include "blobtree/tree.h"
+
+namespace barkridge {
+
+Box support_of(const Cone& cone);
+Box support_of(const FadedCone& cone);
+Box support_of(const Disc& disc);
+Box support_of(const Ring& ring);
+Box support_of(const Polygon& polygon);
+
+/// Bounds of a primitive on a box from those on the part inside the primitive's support, which `of_part` computes:
+/// outside it the field is zero.
+template <typename OfPart>
+FieldBounds bounds_where_supported(const Box& support, const Box& box, OfPart of_part) {
+  const Box part = intersect(support, box);
+  if (part.empty()) return {};
+  FieldBounds bounds = of_part(part);
+  if (part.lo != box.lo || part.hi != box.hi) bounds.value.lo = 0;
+  return bounds;
+}
+
+/// Conservative, and exact to first order in the box's size.
+FieldBounds bounds_of(const Cone& cone, const Box& box);
+FieldBounds bounds_of(const FadedCone& cone, const FadedConeFrame& frame, const Box& box);
+FieldBounds bounds_of(const Disc& disc, const Box& box);
+FieldBounds bounds_of(const Ring& ring, const Box& box);
+FieldBounds bounds_of(const Polygon& polygon, const Box& box);
+
+/// The smallest surface radius of a primitive: what a mesh must resolve.
+double thinnest_radius(const Cone& cone);
+double thinnest_radius(const FadedCone& cone);
+double thinnest_radius(const Disc& disc);
+double thinnest_radius(const Ring& ring);
+double thinnest_radius(const Polygon& polygon);
+
+}  // namespace barkridge

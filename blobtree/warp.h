@@ -1,0 +1,79 @@
+#pragma once
+// Warps: the field at p is the child's at w(p). [docs/field.md, "Warps" and "Bend"]
+
+#include <variant>
+
+#include "blobtree/tree.h"
+
+namespace barkridge {
+
+/// Where a point comes from, and the Jacobian dw/dp there (columns are derivatives by x, y, z).
+struct WarpedPoint {
+  Vec3 point{0};
+  Mat3 jacobian{1};
+};
+
+/// A box that holds w(p) for every p of a box, and a bound of the Jacobian's norm there.
+struct WarpedBox {
+  Box box;
+  double stretch = 1;
+};
+
+/// A warp prepared for evaluation. `reach` is how far the child's field extends from the warp's axis: only bends use
+/// it, whose stretch is bounded where the child is.
+class Warp {
+ public:
+  Warp(const Bend& bend, const Box& child_support);
+  explicit Warp(const Twist& twist);
+  explicit Warp(const Taper& taper);
+  explicit Warp(const Affine& affine);
+
+  Vec3 map(const Vec3& p) const { return map_with_jacobian(p).point; }
+  WarpedPoint map_with_jacobian(const Vec3& p) const;
+  WarpedBox map(const Box& box) const;
+  /// A box that holds every p with w(p) in `child_support`.
+  Box support(const Box& child_support) const;
+
+ private:
+  // All but affine warps act in a frame: x along the axis from `origin`, y and z across it.
+  struct Framed {
+    Vec3 origin;
+    Mat3 axes;  // columns
+    Vec3 to_local(const Vec3& p) const { return glm::transpose(axes) * (p - origin); }
+    Vec3 to_world(const Vec3& q) const { return axes * q + origin; }
+    Box to_local(const Box& box) const;
+    Box to_world(const Box& box) const;
+  };
+  struct BendData {
+    Framed frame;  // origin at the base, x along the chord, y towards the bulge
+    double half_angle, arc_radius, arc, chord, reach;
+  };
+  struct TwistData {
+    Framed frame;
+    double radians_per_unit;
+  };
+  struct TaperData {
+    Framed frame;
+    double length, tip_scale;
+  };
+  struct AffineData {
+    Mat3 inverse;
+    Vec3 offset;
+    Mat3 linear;
+    double stretch;
+  };
+
+  static WarpedPoint map_local(const BendData& data, const Vec3& q);
+  static WarpedPoint map_local(const TwistData& data, const Vec3& q);
+  static WarpedPoint map_local(const TaperData& data, const Vec3& q);
+  static WarpedBox map_local(const BendData& data, const Box& box);
+  static WarpedBox map_local(const TwistData& data, const Box& box);
+  static WarpedBox map_local(const TaperData& data, const Box& box);
+  static Box support_local(const BendData& data, const Box& box);
+  static Box support_local(const TwistData& data, const Box& box);
+  static Box support_local(const TaperData& data, const Box& box);
+
+  std::variant<BendData, TwistData, TaperData, AffineData> data_;
+};
+
+}  // namespace barkridge

@@ -1,0 +1,49 @@
+// Dependencies between rooms go one way. Links cannot see that, because all headers share one root, so the includes are
+// read.
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// What each room may include besides itself. raytrace and polygonize know a model by one header alone.
+const std::map<std::string, std::set<std::string>> kMayInclude{
+    {"base", {}},
+    {"mesh", {"base"}},
+    {"lsystem", {"base"}},
+    {"blobtree", {"base", "lsystem/skeleton.h"}},
+    {"polygonize", {"base", "mesh", "blobtree/field.h"}},
+    {"raytrace", {"base", "mesh", "blobtree/field.h"}},
+    {"scene", {"base", "mesh", "lsystem", "blobtree", "polygonize", "raytrace"}},
+    {"cli", {"base", "mesh", "lsystem", "blobtree", "polygonize", "raytrace", "scene"}},
+};
+
+}  // namespace
+
+TEST_CASE("no room includes one above it") {
+  const std::regex include("^\\s*#include \"((\\w+)/[^\"]+)\"");
+  int includes = 0;
+  for (const auto& [room, allowed] : kMayInclude) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(BARKRIDGE_SOURCE_DIR) / room)) {
+      if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+      std::ifstream file(entry.path());
+      for (std::string line; std::getline(file, line);) {
+        std::smatch match;
+        if (!std::regex_search(line, match, include)) continue;
+        ++includes;
+        const std::string header = match[1], target = match[2];
+        if (target == room) continue;
+        CAPTURE(entry.path().string(), header);
+        CHECK((allowed.count(target) || allowed.count(header)));
+      }
+    }
+  }
+  CHECK(includes > 50);
+}
