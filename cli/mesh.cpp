@@ -1,0 +1,26 @@
+#include "mesh/write.h"
+
+#include "cli/output_check.h"
+#include "cli/progress_bar.h"
+#include "cli/verbs.h"
+#include "cli/warning.h"
+#include "polygonize/polygonize.h"
+#include "scene/pipeline.h"
+
+namespace barkridge::cli {
+
+void run(const MeshArguments& arguments) {
+  mesh_format(arguments.output);
+  const Scene scene = load_scene(arguments.path, arguments.overrides);
+  check_writable(arguments.output);
+
+  ProgressBar bar(arguments.quiet);
+  const Model model = make_model(scene, {bar.stage("growing"), warn});
+  PolygonizeOptions options;
+  options.cell_size = cell_size(scene, model);
+  options.progress = bar.stage("meshing");
+  const Mesh mesh = polygonize(*compile(model.tree), options);
+  write_surface(mesh, scene, model, arguments.output);
+}
+
+}  // namespace barkridge::cli

@@ -1,0 +1,45 @@
+#include "raytrace/render.h"
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "cli/output_check.h"
+#include "cli/progress_bar.h"
+#include "cli/verbs.h"
+#include "cli/warning.h"
+#include "scene/pipeline.h"
+
+namespace barkridge::cli {
+
+namespace {
+
+void check_region(const RenderArguments& arguments, const RenderOptions& picture) {
+  const PixelRegion& region = arguments.region;
+  const bool inside = std::int64_t{region.x} + region.width <= picture.width &&
+                      std::int64_t{region.y} + region.height <= picture.height;
+  if (!inside) {
+    throw InputError(
+        {arguments.region_origin, 0, 0, ""},
+        fmt::format("expected a part of the picture, which has {} x {} pixels", picture.width, picture.height));
+  }
+}
+
+}  // namespace
+
+void run(const RenderArguments& arguments) {
+  image_format(arguments.output);
+  const Scene scene = load_scene(arguments.path, arguments.overrides);
+  check_region(arguments, scene.image);
+  check_writable(arguments.output);
+
+  ProgressBar bar(arguments.quiet);
+  const Model model = make_model(scene, {bar.stage("growing"), warn});
+  const std::shared_ptr<const Field> field = compile(model.tree);
+  RenderOptions options = scene.image;
+  options.region = arguments.region;
+  options.progress = bar.stage("rendering");
+  const Image image = render(*field, make_render_scene(scene, *field), options);
+  write_picture(image, scene, model, arguments.output);
+}
+
+}  // namespace barkridge::cli

@@ -1,0 +1,92 @@
+#pragma once
+// All that a scene file can say, as plain values. docs/scene_format.md describes every key.
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "blobtree/from_skeleton.h"
+#include "lsystem/derive.h"
+#include "lsystem/turtle.h"
+#include "raytrace/render.h"
+
+namespace barkridge {
+
+/// Where the model comes from: the text itself, and its place for messages.
+struct ModelSource {
+  enum class Kind {
+    kLsystem,   ///< an L-system in cpfg's language
+    kString,    ///< a string of modules in cpfg's text form
+    kSkeleton,  ///< a skeleton table
+    kTree,      ///< a BlobTree in its text form
+  };
+  Kind kind = Kind::kTree;
+  std::string text;
+  /// The file in which the text stands, and the line where it begins there.
+  std::string file;
+  int first_line = 1;
+};
+
+/// A camera whose place may be left to the program: without a position it stands in the direction given by the angles,
+/// as far away as the whole model needs, and magnifies the picture by `zoom`; without a target it looks at the model's
+/// middle; without a height an orthographic picture is as high as the model needs.
+struct SceneCamera {
+  Camera::Projection projection = Camera::Projection::kPerspective;
+  std::optional<Vec3> position;
+  std::optional<Vec3> target;
+  Vec3 up{0, 1, 0};
+  double fov_degrees = 35;
+  std::optional<double> height;
+  /// From +z towards +x, and above the horizon, as seen from the model.
+  double azimuth_degrees = -25;
+  double elevation_degrees = 8;
+  double zoom = 1;
+};
+
+/// A sun given by a direction, or by two angles that count like the camera's.
+struct SceneSun {
+  std::optional<Vec3> direction;
+  double azimuth_degrees = 40;
+  double elevation_degrees = 42;
+  Color color = Sun{}.color;
+  double intensity = Sun{}.intensity;
+  double angle_degrees = Sun{}.angle_degrees;
+};
+
+struct Scene {
+  ModelSource model;
+  DeriveOptions derivation;
+  /// Replacements for values that the L-system defines.
+  std::map<std::string, std::string> defines;
+  TurtleOptions turtle;
+  TreeOptions tree;
+  SceneCamera camera;
+  SceneSun sun;
+  Sky sky;
+  Ground ground;
+  Material material;
+  RenderOptions image;
+  /// Edge length of a mesh's sampling cells; without it `default_cell_size`.
+  std::optional<double> cell_size;
+};
+
+/// A value for a key of the scene from outside of its file.
+struct Override {
+  std::string key;
+  std::string value;   ///< a TOML value, or a bare word as text
+  std::string origin;  ///< what the user wrote, for messages: "-D junction.kind=smooth"
+};
+
+/// Splits `key=value`. Throws `InputError` when there is no key or no `=`.
+Override parse_override(const std::string& definition);
+
+/// Reads a scene file (.toml), or an L-system (.l), a cpfg string (.str, .lstring) or a skeleton table (.skel) as a
+/// scene with the default look. Overrides replace what the file says; later ones win. The model's text is read too, but
+/// not parsed. Paths in a scene file are relative to it, paths in overrides to the working directory. Throws
+/// `InputError` with place for a file that cannot be read, for unknown keys, and for values of the wrong type, out of
+/// range or not finite.
+Scene load_scene(const std::string& path, std::span<const Override> overrides = {});
+
+}  // namespace barkridge

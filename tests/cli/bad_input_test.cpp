@@ -1,0 +1,122 @@
+#include <catch2/catch.hpp>
+
+#include "tests/cli/run_program.h"
+#include "tests/scene/scratch_folder.h"
+
+using Catch::Matchers::Contains;
+
+namespace {
+
+// Writes `content`, gives it to `info`, and expects refusal with a message that has the place and the words.
+void check_refused(const std::string& name, const std::string& content, const std::string& place,
+                   const std::string& words) {
+  const ScratchFolder folder;
+  const Finished finished = run_program({"info", folder.write(name, content)});
+  CAPTURE(content);
+  CHECK(finished.status == 2);
+  CHECK(finished.out.empty());
+  CHECK_THAT(finished.err, Catch::StartsWith("barkridge: ") && Contains(name + place) && Contains(words));
+}
+
+const std::string kTable = "# barkridge skeleton 1\n";
+
+}  // namespace
+
+TEST_CASE("numbers that are not finite are refused in every kind of input") {
+  check_refused("a.skel", kTable + "0 -1 0 0 nan 0 1 0 0.1 0.1\n", ":2:", "finite");
+  check_refused("a.skel", kTable + "0 -1 0 0 0 0 inf 0 0.1 0.1\n", ":2:", "finite");
+  check_refused("a.toml", "model.tree = 'cone()'\nsky.intensity = nan\n",
+                ":2:17: ", "sky.intensity: expected a finite number");
+  check_refused("a.toml", "model.tree = 'cone(tip = 0 inf 0)'\n", ":1:", "finite");
+}
+
+TEST_CASE("radii that are zero or negative are refused in every kind of input") {
+  check_refused("a.skel", kTable + "0 -1 0 0 0 0 1 0 0 0.1\n", ":2:", "radi");
+  check_refused("a.skel", kTable + "0 -1 0 0 0 0 1 0 0.1 -0.1\n", ":2:", "radi");
+  check_refused("a.toml", "model.tree = 'cone(base_radius = 0)'\n", ":1:", "radius");
+  check_refused("a.toml", "model.tree = 'ring(radius = -1)'\n", ":1:", "radius");
+  check_refused("a.str", "!(0)F(1)", "", "width");
+}
+
+TEST_CASE("unknown keys are refused with a suggestion") {
+  check_refused("a.toml", "model.tree = 'cone()'\n[junction]\nkid = 'ridge'\n",
+                ":3:1: ", "unknown key junction.kid; did you mean junction.kind?");
+}
+
+TEST_CASE("brackets without a partner are refused in every kind of input") {
+  check_refused("a.str", "F(1)[+F(1)", ":1:5: ", "");
+  check_refused("a.str", "F(1)]F(1)", ":1:5: ", "");
+  check_refused("a.l", "Lsystem: 1\nderivation length: 0\naxiom: F[F\nF --> F\nendlsystem\n", "", "[");
+  check_refused("a.toml", "model.tree = 'sum {'\n", ":1:", "");
+  check_refused("a.toml", "model.tree = 'cone()'\ncamera.position = [1, 2\n", ":", "");
+}
+
+TEST_CASE("tables of skeletons that make no sense are refused") {
+  check_refused("a.skel", "0 -1 0 0 0 0 1 0 0.1 0.1\n", ":1:", "barkridge skeleton 1");
+  check_refused("a.skel", kTable + "0 -1 0 0 0 0 1 0 0.1\n", ":2:", "");
+  check_refused("a.skel", kTable + "0 7 0 0 0 0 1 0 0.1 0.1\n", ":2:", "parent");
+  check_refused("a.skel", kTable + "0 -1 0 0 0 0 1 0 0.1 0.1\n0 -1 0 0 0 0 1 0 0.1 0.1\n", ":3:", "");
+}
+
+TEST_CASE("mistakes in a text within a scene have the scene's line, and a caret below the place") {
+  const ScratchFolder folder;
+  const Finished finished =
+      run_program({"info", folder.write("a.toml", "[model]\ntree = '''\nsum {\n  cone(radius = 1)\n}'''\n")});
+  CHECK(finished.status == 2);
+  CHECK_THAT(finished.err, Contains("a.toml:4:8: ") && Contains("\n    cone(radius = 1)\n         ^\n"));
+}
+
+TEST_CASE("scenes that are missing or of no known kind are bad input") {
+  const ScratchFolder folder;
+  for (const char* name : {"none.toml", "none.l", "none.skel", "none.obj", "none"}) {
+    const Finished finished = run_program({"info", folder.path(name)});
+    CAPTURE(name);
+    CHECK(finished.status == 2);
+    CHECK_THAT(finished.err, Contains(name));
+  }
+}
+
+TEST_CASE("points that are no points are refused with their place") {
+  const ScratchFolder folder;
+  const std::string scene = folder.write("a.toml", "model.tree = 'cone()'");
+  const auto error_of = [&](const std::string& points) {
+    RunOptions options;
+    options.input = points;
+    const Finished finished = run_program({"field", scene, "--points", "-"}, options);
+    CHECK(finished.status == 2);
+    return finished.err;
+  };
+  CHECK_THAT(error_of("0 0 0\n0 0\n"), Contains("standard input:2:4: expected three numbers x y z, not 2"));
+  CHECK_THAT(error_of("0 0 zero\n"),
+             Contains("standard input:1:5: expected a finite number, not zero\n  0 0 zero\n      ^"));
+  CHECK_THAT(error_of("0 nan 0\n"), Contains(":1:3: expected a finite number, not nan"));
+  CHECK_THAT(error_of("0 0 1e999\n"), Contains(":1:5: expected a finite number, not 1e999"));
+  CHECK_THAT(error_of("1 2 3 4\n"), Contains(":1:7: expected the end of the line"));
+  const Finished missing = run_program({"field", scene, "--points", folder.path("none.txt")});
+  CHECK(missing.status == 2);
+  CHECK_THAT(missing.err, Contains("none.txt"));
+}
+
+TEST_CASE("verbs refuse models that have not what they need") {
+  const ScratchFolder folder;
+  const Finished skeleton = run_program({"skeleton", folder.write("a.toml", "model.tree = 'cone()'")});
+  CHECK(skeleton.status == 2);
+  CHECK_THAT(skeleton.err, Contains("expected a model with a skeleton"));
+  const Finished grow = run_program({"grow", folder.write("a.skel", kTable)});
+  CHECK(grow.status == 2);
+  CHECK_THAT(grow.err, Contains("expected an L-system"));
+  const Finished mesh = run_program({"mesh", folder.path("a.skel"), "-o", folder.path("a.ply")});
+  CHECK(mesh.status == 2);
+  CHECK_THAT(mesh.err, Contains("mesh.cell_size"));
+}
+
+TEST_CASE("growth beyond its limits is refused, naming the limit") {
+  const ScratchFolder folder;
+  const std::string path = folder.write("a.l", "Lsystem: 1\nderivation length: 60\naxiom: A\nA --> AA\nendlsystem\n");
+  const Finished modules = run_program({"grow", path, "--max-modules", "1000"});
+  CHECK(modules.status == 2);
+  CHECK_THAT(modules.err, Contains("1000"));
+  const Finished memory = run_program({"grow", path, "--max-memory", "1M"});
+  CHECK(memory.status == 2);
+  CHECK(memory.out.empty());
+}

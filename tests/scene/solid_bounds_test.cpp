@@ -1,0 +1,48 @@
+#include "scene/solid_bounds.h"
+
+#include <catch2/catch.hpp>
+
+#include "blobtree/tree.h"
+
+using namespace barkridge;
+
+namespace {
+
+// `actual` encloses `expected` and is larger by at most a thousandth of the support's diagonal.
+void check_bounds(const BlobTree& tree, const Box& expected) {
+  const std::shared_ptr<const Field> field = compile(tree);
+  const Box actual = solid_bounds(*field);
+  const double tolerance = field->support().diagonal() / 1000;
+  for (int axis = 0; axis < 3; ++axis) {
+    CAPTURE(axis);
+    CHECK(actual.lo[axis] <= expected.lo[axis]);
+    CHECK(actual.lo[axis] >= expected.lo[axis] - tolerance);
+    CHECK(actual.hi[axis] >= expected.hi[axis]);
+    CHECK(actual.hi[axis] <= expected.hi[axis] + tolerance);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("the bounds of a ball are its radius around its middle, not its field's reach") {
+  BlobTree tree;
+  tree.add(Cone{{1, 2, 3}, {1, 2, 3}, 0.5, 0.5});
+  check_bounds(tree, {{0.5, 1.5, 2.5}, {1.5, 2.5, 3.5}});
+}
+
+TEST_CASE("the bounds of distant parts unite") {
+  BlobTree tree;
+  const NodeId a = tree.add(Cone{{-5, 0, 0}, {-5, 4, 0}, 1, 1});
+  const NodeId b = tree.add(Cone{{7, 1, 2}, {7, 1, 2}, 2, 2});
+  tree.add(Union{}, {a, b});
+  check_bounds(tree, {{-6, -1, -1}, {9, 5, 4}});
+}
+
+TEST_CASE("a field without a solid has empty bounds") {
+  CHECK(solid_bounds(*compile(BlobTree{})).empty());
+  BlobTree hollow;
+  const NodeId ball = hollow.add(Cone{});
+  const NodeId same = hollow.add(Cone{});
+  hollow.add(Negative{}, {ball, same});
+  CHECK(solid_bounds(*compile(hollow)).empty());
+}
