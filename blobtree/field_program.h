@@ -66,14 +66,6 @@ struct FieldProgramData {
   std::vector<Warp> warps;
 };
 
-/// Points in columns.
-struct PointBatch {
-  const double* x;
-  const double* y;
-  const double* z;
-  std::size_t size;
-};
-
 struct FieldProgram {
   std::shared_ptr<const FieldProgramData> data;
   std::vector<FieldInstruction> code;  ///< leaves one field on the stack; empty for the zero field

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "blobtree/cone_kernels.h"
 #include "blobtree/contact.h"
-#include "blobtree/falloff.h"
 #include "blobtree/field_program.h"
 
 namespace barkridge {
@@ -13,86 +13,8 @@ namespace {
 
 using Op = FieldInstruction::Op;
 
-// A field on the stack: its values at the batch's points, and its gradients' coordinates where they are wanted.
-struct Slot {
-  double* f;
-  double* gx;
-  double* gy;
-  double* gz;
-};
-
 template <bool kGradients>
-void evaluate_cone(const FieldProgramData::ConeData& cone, const PointBatch& p, const Slot& out) {
-  const double s = cone.taper, r0 = cone.cone.base_radius;
-  const double thick_end = s > 0 ? cone.length : 0.0;
-  for (std::size_t i = 0; i < p.size; ++i) {
-    const double qx = p.x[i] - cone.cone.base.x, qy = p.y[i] - cone.cone.base.y, qz = p.z[i] - cone.cone.base.z;
-    const double y = qx * cone.axis.x + qy * cone.axis.y + qz * cone.axis.z;
-    const double bx = qx - y * cone.axis.x, by = qy - y * cone.axis.y, bz = qz - y * cone.axis.z;
-    const double rho2 = bx * bx + by * by + bz * bz;
-    const double foot = r0 + s * y;
-    const double best = foot > 0 ? std::min(std::max(y + s * rho2 / foot, 0.0), cone.length) : thick_end;
-    const double radius = r0 + s * best;
-    const double inverse = 1 / (4 * radius * radius);
-    const double dy = y - best;
-    const double v = (dy * dy + rho2) * inverse;
-    out.f[i] = falloff(v);
-    if constexpr (kGradients) {
-      const double slope = 2 * falloff_slope(v) * inverse;
-      out.gx[i] = slope * (bx + dy * cone.axis.x);
-      out.gy[i] = slope * (by + dy * cone.axis.y);
-      out.gz[i] = slope * (bz + dy * cone.axis.z);
-    }
-  }
-}
-
-template <bool kGradients>
-void evaluate_faded_cone(const FieldProgramData::FadedConeData& cone, const PointBatch& p, const Slot& out) {
-  const FadedConeFrame& frame = cone.frame;
-  const double s = frame.taper, r0 = cone.cone.base_radius;
-  for (std::size_t i = 0; i < p.size; ++i) {
-    const double qx = p.x[i] - cone.cone.base.x, qy = p.y[i] - cone.cone.base.y, qz = p.z[i] - cone.cone.base.z;
-    const double y = qx * frame.axis.x + qy * frame.axis.y + qz * frame.axis.z;
-    const double bx = qx - y * frame.axis.x, by = qy - y * frame.axis.y, bz = qz - y * frame.axis.z;
-    const double rho2 = bx * bx + by * by + bz * bz;
-
-    const double rise = (y - frame.rise_start) / frame.rise_length;
-    const double fall = (y - frame.fall_start) / frame.fall_length;
-    const double weight = std::max(0.0, fade(rise) - fade(fall));
-
-    const double foot = r0 + s * y;
-    const double rc = std::max(foot, frame.lowest_radius);
-    const double best = y + s * rho2 / rc;
-    const double center = std::min(std::max(best, frame.free_axis.lo), frame.free_axis.hi);
-    const double tapered = r0 + s * center;
-    const double radius = std::min(std::max(tapered, frame.lowest_radius), frame.highest_radius);
-    const double inverse = 1 / (4 * radius * radius);
-    const double dy = y - center;
-    const double v = (dy * dy + rho2) * inverse;
-    const double g = falloff(v);
-    out.f[i] = weight * g;
-    if constexpr (kGradients) {
-      // As in primitive.cpp: the movement of the nearest sphere matters only where a radius is clamped.
-      const double moves = center == best ? 1.0 : 0.0;
-      const double center_by_y = foot > frame.lowest_radius ? 1 - s * s * rho2 / (rc * rc) : 1.0;
-      const double radius_slope = radius == tapered ? s : 0.0;
-      const double v_by_center = moves * (-2 * dy - 8 * v * radius * radius_slope) * inverse;
-      const double v_by_y = 2 * dy * inverse + v_by_center * center_by_y;
-      const double v_by_rho2 = inverse + v_by_center * s / rc;
-      const double slope = weight * falloff_slope(v);
-      const double weight_slope =
-          weight > 0 ? fade_slope(rise) / frame.rise_length - fade_slope(fall) / frame.fall_length : 0.0;
-      const double along = slope * v_by_y + g * weight_slope;
-      const double beside = slope * 2 * v_by_rho2;
-      out.gx[i] = beside * bx + along * frame.axis.x;
-      out.gy[i] = beside * by + along * frame.axis.y;
-      out.gz[i] = beside * bz + along * frame.axis.z;
-    }
-  }
-}
-
-template <bool kGradients>
-void evaluate_other(const FieldProgramData::OtherData& other, const PointBatch& p, const Slot& out) {
+void evaluate_other(const FieldProgramData::OtherData& other, const PointBatch& p, const FieldColumns& out) {
   for (std::size_t i = 0; i < p.size; ++i) {
     const Vec3 point(p.x[i], p.y[i], p.z[i]);
     const FieldSample at = std::visit([&](const auto& primitive) { return sample(primitive, point); }, other.primitive);
@@ -203,7 +125,7 @@ class Machine {
   double* point_column(std::size_t level, std::size_t axis) {
     return scratch_.numbers.data() + (3 * level + axis) * batch_;
   }
-  Slot slot(std::size_t level) {
+  FieldColumns slot(std::size_t level) {
     double* start = fields_ + kColumns * batch_ * level;
     if constexpr (kGradients) return {start, start + batch_, start + 2 * batch_, start + 3 * batch_};
     return {start, nullptr, nullptr, nullptr};
@@ -220,10 +142,10 @@ class Machine {
           clear(slot(top++), size);
           break;
         case Op::kCone:
-          evaluate_cone<kGradients>(data.cones[instruction.index], points, slot(top++));
+          evaluate_cone(data.cones[instruction.index], points, slot(top++));
           break;
         case Op::kFadedCone:
-          evaluate_faded_cone<kGradients>(data.faded_cones[instruction.index], points, slot(top++));
+          evaluate_faded_cone(data.faded_cones[instruction.index], points, slot(top++));
           break;
         case Op::kOther:
           evaluate_other<kGradients>(data.others[instruction.index], points, slot(top++));
@@ -257,18 +179,18 @@ class Machine {
     return {point_column(level, 0), point_column(level, 1), point_column(level, 2), size};
   }
 
-  static std::array<double*, 4> columns(const Slot& s) { return {s.f, s.gx, s.gy, s.gz}; }
+  static std::array<double*, 4> columns(const FieldColumns& s) { return {s.f, s.gx, s.gy, s.gz}; }
 
-  void clear(const Slot& s, std::size_t size) {
+  void clear(const FieldColumns& s, std::size_t size) {
     for (std::size_t c = 0; c < kColumns; ++c) std::fill_n(columns(s)[c], size, 0.0);
   }
-  void negate(const Slot& s, std::size_t size) {
+  void negate(const FieldColumns& s, std::size_t size) {
     for (std::size_t c = 0; c < kColumns; ++c) {
       double* column = columns(s)[c];
       for (std::size_t i = 0; i < size; ++i) column[i] = -column[i];
     }
   }
-  void add(const Slot& to, const Slot& from, std::size_t size) {
+  void add(const FieldColumns& to, const FieldColumns& from, std::size_t size) {
     for (std::size_t c = 0; c < kColumns; ++c) {
       double* sum = columns(to)[c];
       const double* summand = columns(from)[c];
@@ -282,7 +204,7 @@ class Machine {
       for (int axis = 0; axis < 3; ++axis) point_column(level + 1, static_cast<std::size_t>(axis))[i] = q[axis];
     }
   }
-  void leave(const Warp& warp, const PointBatch& points, const Slot& s) {
+  void leave(const Warp& warp, const PointBatch& points, const FieldColumns& s) {
     for (std::size_t i = 0; i < points.size; ++i) {
       const Mat3 jacobian = warp.map_with_jacobian({points.x[i], points.y[i], points.z[i]}).jacobian;
       const Vec3 gradient = Vec3(s.gx[i], s.gy[i], s.gz[i]) * jacobian;  // transposed Jacobian times gradient
@@ -325,8 +247,9 @@ void evaluate_all(const FieldProgram& program, const FieldProgramDepth& depth, s
   constexpr std::size_t kLargestBatch = 64;
   constexpr std::size_t kScratchNumbers = std::size_t{1} << 22;
   const std::size_t columns = 3 * (depth.warps + 1) + Machine<kGradients>::kColumns * depth.fields;
-  const std::size_t batch =
+  const std::size_t fitting =
       std::clamp<std::size_t>(kScratchNumbers / columns, 1, std::min(kLargestBatch, points.size()));
+  const std::size_t batch = (fitting + kBatchGranule - 1) / kBatchGranule * kBatchGranule;
   thread_local Scratch scratch;
   Machine<kGradients> machine(program, depth, batch, scratch);
   for (std::size_t start = 0; start < points.size(); start += batch) {
@@ -337,7 +260,7 @@ void evaluate_all(const FieldProgram& program, const FieldProgramDepth& depth, s
       }
     }
     machine.run(size);
-    const Slot result = machine.slot(0);
+    const FieldColumns result = machine.slot(0);
     for (std::size_t i = 0; i < size; ++i) {
       values[start + i] = result.f[i];
       if constexpr (kGradients) gradients[start + i] = {result.gx[i], result.gy[i], result.gz[i]};

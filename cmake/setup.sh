@@ -1,6 +1,6 @@
 # Sourced by ./demo and ./check: installs what is missing on a Debian machine.
 
-build_packages=(g++ cmake ninja-build libembree-dev libopenimageio-dev openimageio-tools libtbb-dev libglm-dev
+build_packages=(g++ cmake ninja-build libembree-dev libopenimageio-dev openimageio-tools libtbb-dev libhwy-dev libglm-dev
                 libcli11-dev libtomlplusplus-dev libfmt-dev nlohmann-json3-dev libssl-dev)
 test_packages=(catch2 libbenchmark-dev libcgal-dev)
 

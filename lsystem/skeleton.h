@@ -17,43 +17,43 @@ inline constexpr InternodeId kNoInternode = -1;
 
 /// A straight piece of a branch, a truncated cone: lengths in scene units, radii (not diameters).
 struct Internode {
-    Vec3 base{0};
-    Vec3 tip{0};
-    double base_radius = 0;  ///< > 0
-    double tip_radius = 0;   ///< > 0
-    InternodeId parent = kNoInternode;
-    /// 0 for the trunk; one more than the parent's when it leaves the parent inside a bracket.
-    std::int32_t order = 0;
-    /// The derivation step in which its module appeared; 0 where the source does not say.
-    std::int32_t birth_step = 0;
+  Vec3 base{0};
+  Vec3 tip{0};
+  double base_radius = 0;  ///< > 0
+  double tip_radius = 0;   ///< > 0
+  InternodeId parent = kNoInternode;
+  /// 0 for the trunk; one more than the parent's when it leaves the parent inside a bracket.
+  std::int32_t order = 0;
+  /// The derivation step in which its module appeared; 0 where the source does not say.
+  std::int32_t birth_step = 0;
 };
 
 /// Something other than an internode that the turtle drew: a leaf surface, a sphere, a disc.
 struct Organ {
-    std::string kind;  ///< the command without arguments: "~l", "@O", "@c", "@o"
-    Vec3 position{0};
-    /// Turtle frame, right-handed and orthonormal: heading, left, up = heading x left.
-    Vec3 heading{0, 1, 0};
-    Vec3 left{-1, 0, 0};
-    Vec3 up{0, 0, 1};
-    double size = 1;  ///< diameter of a sphere or disc, scale of a surface
-    std::int32_t color = 0;
-    InternodeId internode = kNoInternode;  ///< the internode at whose tip it grew
+  std::string kind;  ///< the command without arguments: "~l", "@O", "@c", "@o"
+  Vec3 position{0};
+  /// Turtle frame, right-handed and orthonormal: heading, left, up = heading x left.
+  Vec3 heading{0, 1, 0};
+  Vec3 left{-1, 0, 0};
+  Vec3 up{0, 0, 1};
+  double size = 1;  ///< diameter of a sphere or disc, scale of a surface
+  std::int32_t color = 0;
+  InternodeId internode = kNoInternode;  ///< the internode at whose tip it grew
 };
 
 /// A branching structure. Parents come before children; both ends of every internode differ.
 struct Skeleton {
-    std::vector<Internode> internodes;
-    std::vector<Organ> organs;
-    /// Internodes of zero length that were dropped, their children attached to their parents.
-    std::size_t dropped_internodes = 0;
+  std::vector<Internode> internodes;
+  std::vector<Organ> organs;
+  /// Internodes of zero length that were dropped, their children attached to their parents.
+  std::size_t dropped_internodes = 0;
 };
 
-/// The children of every internode, by index, in the skeleton's order, without a vector each: those of internode `i` are
-/// `children[first[i]] .. children[first[i + 1] - 1]`. Roots are the children of index `internodes.size()`.
+/// The children of every internode, by index, in the skeleton's order, without a vector each: those of internode `i`
+/// are `children[first[i]] .. children[first[i + 1] - 1]`. Roots are the children of index `internodes.size()`.
 struct ChildTable {
-    std::vector<std::uint32_t> first;
-    std::vector<InternodeId> children;
+  std::vector<std::uint32_t> first;
+  std::vector<InternodeId> children;
 };
 ChildTable child_table(const Skeleton& skeleton);
 

@@ -86,8 +86,8 @@ struct Image {
 };
 
 /// Renders the solid of `field`. Every pixel is a function of field, scene, seed and its own place in the full picture:
-/// not of region, threads or machine load. Rays find the first point of the solid to 1e-6 of the scene's size; nothing is stepped over. Throws `InputError`
-/// for settings outside their ranges, `Cancelled`.
+/// not of region, threads or machine load. Rays find the first point of the solid to 1e-6 of the scene's size; nothing
+/// is stepped over. Throws `InputError` for settings outside their ranges, `Cancelled`.
 Image render(const Field& field, const RenderScene& scene, const RenderOptions& options);
 
 }  // namespace barkridge
