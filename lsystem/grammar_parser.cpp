@@ -38,8 +38,9 @@ class GrammarParser {
     if (scanner_.at_line_end()) scanner_.fail("expected the axiom's modules");
     grammar_.axiom = parse_modules(globals_);
     scanner_.expect_line_end("the axiom");
+    const bool empty_line = scanner_.at_line_end();  // in cpfg it stands for a production
     parse_productions(grammar_.productions);
-    if (grammar_.productions.empty()) scanner_.fail("expected at least one production after the axiom");
+    if (grammar_.productions.empty() && !empty_line) scanner_.fail("expected a production after the axiom");
     if (scanner_.accept_keyword("decomposition")) parse_section(grammar_.decomposition, "decomposition");
     if (scanner_.accept_keyword("homomorphism")) parse_section(grammar_.homomorphism, "homomorphism");
     parse_end();
