@@ -11,17 +11,24 @@ namespace barkridge {
 struct PolygonizeOptions {
     /// Edge length of the sampling cells, in scene units; > 0 and finite.
     double cell_size = 0;
-    /// Most triangles; 0 means as many as indices allow.
+    /// Most triangles; 0 means as many as 31-bit vertex indices allow.
     std::size_t max_triangles = 0;
     Progress progress;
 };
 
-/// The surface of the field's solid as a closed, oriented 2-manifold: marching cubes over those blocks of the lattice
-/// (multiples of `cell_size` from the origin) that the field's bounds cannot rule out, so nothing is missed that the
-/// lattice can see and empty space is never sampled. Vertices lie on lattice edges at roots of the field (not of its linear interpolation);
-/// normals are the field's own. The result depends on field and options only, to the bit, not on threads.
-/// Throws `InputError` for a cell size that is not positive or makes the lattice larger than 2^31 cells a side,
-/// `LimitError` at the limit, `Cancelled`. Memory: in proportion to the output.
+/// The surface of the field's solid as a closed, oriented 2-manifold that does not intersect itself: marching cubes
+/// over those blocks of the lattice (multiples of `cell_size` from the origin) that the field's bounds cannot rule out,
+/// so nothing is missed that the lattice can see and empty space is never sampled.
+///
+/// Each lattice edge with one end inside has one vertex, at a root of the field (not of its linear interpolation) to
+/// 1e-6 of a cell, but at least 1e-3 of a cell away from the edge's ends, so that no two vertices coincide and every
+/// triangle has an area. Normals are the field's own, `-grad F / |grad F|`; where the gradient vanishes, the mean of
+/// the triangles'. The result depends on field and options only, to the bit, not on threads.
+///
+/// Throws `InputError` for a cell size that is not positive or so small (about 1e-6 of the largest coordinate) that
+/// floats cannot tell vertices apart, `LimitError` as soon as the triangles found exceed the limit, `Cancelled`.
+/// Memory: in proportion to the output. Cost: about 729 evaluations of the restricted field for every block of 8^3
+/// cells near the surface and 5 for every vertex.
 Mesh polygonize(const Field& field, const PolygonizeOptions& options);
 
 }  // namespace barkridge
