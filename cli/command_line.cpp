@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <cstdint>
 #include <optional>
 
 #include "base/error.h"
 #include "base/version.h"
+#include "cli/option_values.h"
 #include "scene/scene_keys.h"
 
 namespace barkridge::cli {
@@ -23,40 +23,37 @@ constexpr const char* kExitHelp =
     "Exit status: 0 done; 1 failure (disk full, target not writable, out of memory); 2 bad usage or input; "
     "130, 143 ended by SIGINT, SIGTERM.";
 
+// Breaks lines at blanks so that none is longer than `width`.
+std::string wrapped(const std::string& text, std::size_t width) {
+  std::string lines;
+  std::size_t length = 0;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t end = std::min(text.find_first_of(" \n", i), text.size());
+    if (length > 0 && length + 1 + (end - i) > width) {
+      lines += '\n';
+      length = 0;
+    } else if (length > 0) {
+      lines += ' ';
+      ++length;
+    }
+    lines.append(text, i, end - i);
+    length += end - i;
+    if (end < text.size() && text[end] == '\n') {
+      lines += '\n';
+      length = 0;
+    }
+    i = end + 1;
+  }
+  return lines;
+}
+
 [[noreturn]] void refuse(const std::string& origin, const std::string& expected) {
   throw InputError({origin, 0, 0, ""}, "expected " + expected);
 }
 
-// Integers with separators between them, like 640x480+10+20 by "x++"; nothing if the text is anything else.
-std::optional<std::vector<int>> integers_between(std::string_view text, std::string_view separators) {
-  std::vector<int> numbers;
-  const char* at = text.data();
-  const char* const end = text.data() + text.size();
-  for (std::size_t i = 0; i <= separators.size(); ++i) {
-    int number = 0;
-    const auto [after, error] = std::from_chars(at, end, number);
-    if (error != std::errc() || number < 0) return std::nullopt;
-    numbers.push_back(number);
-    at = after;
-    if (i < separators.size() && (at == end || *at++ != separators[i])) return std::nullopt;
-  }
-  if (at != end) return std::nullopt;
-  return numbers;
-}
-
-// A number of bytes with an optional unit K, M, G or T, as a number.
-std::string bytes_of(const std::string& text, const std::string& origin) {
-  std::uint64_t number = 0;
-  const auto [after, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  const std::string unit(after, text.data() + text.size());
-  const std::size_t power = std::string_view("KMGT").find(unit.empty() ? '?' : unit[0]);
-  const std::uint64_t factor = power == std::string_view::npos ? 1 : std::uint64_t{1} << (10 * (power + 1));
-  const bool known = unit.empty() || (unit.size() == 1 && factor > 1);
-  if (error != std::errc() || !known || number > (std::uint64_t{1} << 62) / factor) {
-    refuse(origin, "a number of bytes, like 500000000 or 2G");
-  }
-  return fmt::format("{}", number * factor);
-}
+constexpr std::size_t kOptionColumn = 30, kHelpWidth = 100;
+std::string help(const std::string& text) { return wrapped(text, kHelpWidth - kOptionColumn); }
+std::string footer(const std::string& text) { return wrapped(text + '\n' + kExitHelp, kHelpWidth); }
 
 // The options of a verb as the user wrote them, before they mean anything.
 struct Written {
@@ -66,102 +63,76 @@ struct Written {
   bool quiet = false, json = false;
 };
 
-void add_scene_options(CLI::App& verb, Written& written, const char* scene_name = "SCENE",
-                       const char* help = kSceneHelp) {
-  verb.add_option(scene_name, written.scene, help)->required();
-  verb.add_option("-D,--define", written.definitions,
-                  "Sets any key of the scene to a TOML value or a bare word, over what the scene says: "
-                  "-D junction.kind=smooth -D camera.position=[1,2,3]. `barkridge --help-keys` lists the keys")
-      ->type_name("KEY=VALUE")
+template <typename Value>
+CLI::Option* add(CLI::App& verb, const char* names, Value& value, const char* type, const std::string& text) {
+  return verb.add_option(names, value, help(text))->type_name(type);
+}
+
+CLI::App& add_verb(CLI::App& app, Written& written, const char* name, const char* text, const std::string& notes,
+                   const char* scene_name = "SCENE", const char* scene_text = kSceneHelp) {
+  CLI::App& verb = *app.add_subcommand(name, text);
+  verb.group("Verbs");
+  verb.footer(footer(notes));
+  add(verb, scene_name, written.scene, "", scene_text)->required();
+  add(verb, "-D,--define", written.definitions, "KEY=VALUE",
+      "Sets any key of the scene to a TOML value or a bare word, over what the scene says: -D junction.kind=smooth -D "
+      "camera.position=[1,2,3]. `barkridge --help-keys` lists the keys")
       ->allow_extra_args(false);
-  verb.add_option("--max-modules", written.max_modules, "Most modules that the L-system may make (lsystem.max_modules)")
-      ->type_name("N");
-  verb.add_option("--max-memory", written.max_memory,
-                  "Most bytes for its string, with K, M or G if you like (lsystem.max_memory)")
-      ->type_name("BYTES");
+  add(verb, "--max-modules", written.max_modules, "N", "Most modules that the L-system may make (lsystem.max_modules)");
+  add(verb, "--max-memory", written.max_memory, "BYTES",
+      "Most bytes for its string, with K, M or G if you like (lsystem.max_memory)");
   verb.add_flag("-q,--quiet", written.quiet, "No progress bar");
+  return verb;
 }
 
-void add_threads_option(CLI::App& verb, Written& written) {
-  verb.add_option("-t,--threads", written.threads,
-                  "Threads to use; 0, the default, means all. The result is the same for any number")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1024));
+void add_output_options(CLI::App& verb, Written& written, const char* output_text) {
+  add(verb, "-o,--output", written.output, "FILE", output_text)->required();
+  add(verb, "-t,--threads", written.threads, "N",
+      "Threads to use; 0, the default, means all. The result is the same for any number")
+      ->check(CLI::Range(0, 1024).description(""));
 }
 
-void add_render(CLI::App& app, Written& written) {
-  CLI::App& verb = *app.add_subcommand("render", "Renders a picture to a linear half-float EXR or an sRGB PNG.");
-  add_scene_options(verb, written);
-  verb.add_option("-o,--output", written.output,
-                  "The picture; its extension, .exr or .png, says the format. It appears whole or not at all")
-      ->type_name("FILE")
+void add_verbs(CLI::App& app, Written& written) {
+  CLI::App& render = add_verb(app, written, "render", "Renders a picture to a linear half-float EXR or an sRGB PNG.",
+                              "Example: barkridge render poplar.toml -o poplar.exr --size 1536x2048 --spp 16");
+  add_output_options(render, written,
+                     "The picture; its extension, .exr or .png, says the format. It appears whole or not at all");
+  add(render, "--size", written.size, "WxH", "Size in pixels (image.width, image.height)");
+  add(render, "--spp,--samples", written.samples, "N", "Most samples a pixel (image.samples_per_pixel)");
+  add(render, "--seed", written.seed, "N", "Seed of the picture's random numbers (image.seed)");
+  add(render, "--region", written.region, "WxH+X+Y",
+      "Renders this part only, X to the right and Y down from the top left; its pixels are those of the whole picture");
+
+  CLI::App& mesh = add_verb(app, written, "mesh", "Makes a closed, manifold triangle mesh of the surface.",
+                            "Example: barkridge mesh poplar.toml -o poplar.ply --cell-size 0.01");
+  add_output_options(mesh, written,
+                     "The mesh; its extension, .ply, .obj or .stl, says the format. It appears whole or not at all");
+  add(mesh, "--cell-size", written.cell_size, "H",
+      "Edge length of the sampling cells in scene units (mesh.cell_size); by default 0.75 times the thinnest branch's "
+      "radius");
+
+  CLI::App& grow =
+      add_verb(app, written, "grow", "Derives an L-system and prints its string.",
+               "Example: barkridge grow poplar.l --steps 4", "FILE", "An L-system (.l), or a scene whose model is one");
+  add(grow, "--steps", written.steps, "N", "Derivation steps (lsystem.steps); by default what the L-system says");
+  add(grow, "--seed", written.seed, "N",
+      "Seed of the stochastic choice (lsystem.seed); by default what the L-system says");
+
+  add_verb(app, written, "skeleton", "Prints the skeleton as a table.",
+           "First line `# barkridge skeleton 1`, then an internode a line: id parent x0 y0 z0 x1 y1 z1 r0 r1, parents "
+           "before children, parent -1 at a root. A table in a .skel file is a scene again.");
+
+  CLI::App& field =
+      add_verb(app, written, "field", "Prints the field and its gradient at points, by the reference evaluator.",
+               "Prints `x y z F gx gy gz` with 17 significant digits, a line a point. The surface is "
+               "where F is 0.5, the inside where it is more.");
+  add(field, "--points", written.points, "FILE",
+      "Lines `x y z`, blank lines and # comments allowed; - reads the standard input")
       ->required();
-  verb.add_option("--size", written.size, "Size in pixels (image.width, image.height)")->type_name("WxH");
-  verb.add_option("--spp,--samples", written.samples, "Most samples a pixel (image.samples_per_pixel)")->type_name("N");
-  verb.add_option("--seed", written.seed, "Seed of the picture's random numbers (image.seed)")->type_name("N");
-  verb.add_option("--region", written.region,
-                  "Renders this part only, X to the right and Y down from the top left; its pixels are those of the "
-                  "whole picture")
-      ->type_name("WxH+X+Y");
-  add_threads_option(verb, written);
-  verb.footer(
-      fmt::format("Example: barkridge render poplar.toml -o poplar.exr --size 1536x2048 --spp 16\n{}", kExitHelp));
-}
 
-void add_mesh(CLI::App& app, Written& written) {
-  CLI::App& verb = *app.add_subcommand("mesh", "Makes a closed, manifold triangle mesh of the surface.");
-  add_scene_options(verb, written);
-  verb.add_option("-o,--output", written.output,
-                  "The mesh; its extension, .ply, .obj or .stl, says the format. It appears whole or not at all")
-      ->type_name("FILE")
-      ->required();
-  verb.add_option("--cell-size", written.cell_size,
-                  "Edge length of the sampling cells in scene units (mesh.cell_size); by default 0.75 times the "
-                  "thinnest branch's radius")
-      ->type_name("H");
-  add_threads_option(verb, written);
-  verb.footer(fmt::format("Example: barkridge mesh poplar.toml -o poplar.ply --cell-size 0.01\n{}", kExitHelp));
-}
-
-void add_grow(CLI::App& app, Written& written) {
-  CLI::App& verb = *app.add_subcommand("grow", "Derives an L-system and prints its string.");
-  add_scene_options(verb, written, "FILE", "An L-system (.l), or a scene whose model is one");
-  verb.add_option("--steps", written.steps, "Derivation steps (lsystem.steps); by default what the L-system says")
-      ->type_name("N");
-  verb.add_option("--seed", written.seed,
-                  "Seed of the stochastic choice (lsystem.seed); by default what the L-system says")
-      ->type_name("N");
-  verb.footer(fmt::format("Example: barkridge grow poplar.l --steps 4\n{}", kExitHelp));
-}
-
-void add_skeleton(CLI::App& app, Written& written) {
-  CLI::App& verb = *app.add_subcommand("skeleton", "Prints the skeleton as a table.");
-  add_scene_options(verb, written);
-  verb.footer(
-      fmt::format("First line `# barkridge skeleton 1`, then an internode a line: id parent x0 y0 z0 x1 y1 z1 r0 r1,\n"
-                  "parents before children, parent -1 at a root. A table in a .skel file is a scene again.\n{}",
-                  kExitHelp));
-}
-
-void add_field(CLI::App& app, Written& written) {
-  CLI::App& verb =
-      *app.add_subcommand("field", "Prints the field and its gradient at points, by the reference evaluator.");
-  add_scene_options(verb, written);
-  verb.add_option("--points", written.points,
-                  "Lines `x y z`, blank lines and # comments allowed; - reads the standard input")
-      ->type_name("FILE")
-      ->required();
-  verb.footer(
-      fmt::format("Prints `x y z F gx gy gz` with 17 significant digits, a line a point. The surface is where F is "
-                  "0.5, the inside where it is more.\n{}",
-                  kExitHelp));
-}
-
-void add_info(CLI::App& app, Written& written) {
-  CLI::App& verb = *app.add_subcommand("info", "Prints what the model consists of: counts, depth, bounds, memory.");
-  add_scene_options(verb, written);
-  verb.add_flag("--json", written.json, "As one JSON object");
-  verb.footer(kExitHelp);
+  CLI::App& info = add_verb(app, written, "info", "Prints what the model consists of: counts, depth, bounds, memory.",
+                            "Example: barkridge info poplar.toml --json");
+  info.add_flag("--json", written.json, "As one JSON object");
 }
 
 // Options that stand for keys of the scene become overrides, so that the scene's table alone decides what is right.
@@ -176,7 +147,9 @@ void interpret_scene_options(const Written& written, SceneArguments& arguments) 
   add_override(arguments, "--max-modules", "lsystem.max_modules", written.max_modules);
   if (!written.max_memory.empty()) {
     const std::string origin = "--max-memory " + written.max_memory;
-    arguments.overrides.push_back({"lsystem.max_memory", bytes_of(written.max_memory, origin), origin});
+    const std::optional<std::uint64_t> bytes = bytes_of(written.max_memory);
+    if (!bytes) refuse(origin, "a number of bytes, like 500000000 or 2G");
+    arguments.overrides.push_back({"lsystem.max_memory", fmt::format("{}", *bytes), origin});
   }
 }
 
@@ -256,13 +229,10 @@ std::variant<Command, HelpText> parse_command_line(int argc, const char* const* 
   bool help_keys = false;
   app.set_version_flag("--version", std::string("barkridge ") + version());
   app.add_flag("--help-keys", help_keys, "Lists every key that a scene or -D can set, and exits");
-  app.footer(fmt::format("`barkridge VERB --help` explains a verb.\n{}", kExitHelp));
-  add_render(app, written);
-  add_mesh(app, written);
-  add_grow(app, written);
-  add_skeleton(app, written);
-  add_field(app, written);
-  add_info(app, written);
+  app.footer(footer("`barkridge VERB --help` explains a verb."));
+  app.get_formatter()->column_width(kOptionColumn);
+  app.get_formatter()->label("SUBCOMMAND", "VERB");
+  add_verbs(app, written);
   app.require_subcommand(0, 1);
   try {
     app.parse(argc, argv);

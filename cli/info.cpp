@@ -46,9 +46,10 @@ Info collect(const InfoArguments& arguments) {
   Info info;
   Model model;
   if (has_word(scene)) {
-    const Growth growth = grow(scene, {bar.stage("growing"), warn});
+    const Listener listener{bar.stage("growing"), warn};
+    const Growth growth = grow(scene, listener);
     info.modules = growth.word.modules.size();
-    model = make_model(scene, draw(scene, growth));
+    model = make_model(scene, draw(scene, growth, listener));
   } else {
     model = make_model(scene);
   }

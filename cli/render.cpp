@@ -7,6 +7,7 @@
 #include "cli/progress_bar.h"
 #include "cli/verbs.h"
 #include "cli/warning.h"
+#include "raytrace/image_file.h"
 #include "scene/pipeline.h"
 
 namespace barkridge::cli {

@@ -151,8 +151,8 @@ void complete_model(const std::vector<Setting>& settings, const std::string& pat
   ModelSource& model = scene.model;
   if (given->key == "model.lsystem_text" || given->key == "model.tree") {
     model.file = given->value_place.file;
-    model.first_line = given->text_line;
-    model.text.insert(0, static_cast<std::size_t>(given->text_column - 1), ' ');
+    model.text.insert(0, std::string(static_cast<std::size_t>(given->text_line - 1), '\n') +
+                             std::string(static_cast<std::size_t>(given->text_column - 1), ' '));
     return;
   }
   const bool from_override = given->value_place.line == 0 && given->value_place.file != "";

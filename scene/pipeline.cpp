@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/version.h"
 #include "mesh/write.h"
+#include "raytrace/image_file.h"
 #include "scene/camera_fit.h"
 #include "scene/scene_hash.h"
 #include "scene/solid_bounds.h"
@@ -20,9 +21,18 @@ namespace {
 
 constexpr double kCellsPerThinnestRadius = 0.75;
 
-// The text of the model with its first line where it stands in its file, so that every message has the right place.
-std::string text_in_place(const ModelSource& model) {
-  return std::string(static_cast<std::size_t>(model.first_line - 1), '\n') + model.text;
+// Turtle and derivation know modules but not where the model stands: their errors get its name.
+template <typename Work>
+auto naming_file(const std::string& file, Work work) {
+  try {
+    return work();
+  } catch (const LimitError& error) {
+    if (error.where().file.empty()) throw LimitError({file, 0, 0, ""}, error.message());
+    throw;
+  } catch (const InputError& error) {
+    if (error.where().file.empty()) throw InputError({file, 0, 0, ""}, error.message());
+    throw;
+  }
 }
 
 // A bound from below of the factor by which a node makes its children smaller.
@@ -81,33 +91,36 @@ Growth grow(const Scene& scene, const Listener& listener) {
                      "expected an L-system or a string of modules; this model has neither");
   }
   if (!has_lsystem(scene)) {
-    growth.word = parse_word(text_in_place(scene.model), scene.model.file);
+    growth.word = parse_word(scene.model.text, scene.model.file);
     return growth;
   }
-  growth.grammar = parse_grammar(text_in_place(scene.model), scene.model.file, scene.defines, listener.notify);
+  growth.grammar = parse_grammar(scene.model.text, scene.model.file, scene.defines, listener.notify);
   DeriveOptions options = scene.derivation;
   options.progress = listener.progress;
   options.notify = listener.notify;
-  growth.word = derive(*growth.grammar, options);
+  growth.word = naming_file(scene.model.file, [&] { return derive(*growth.grammar, options); });
   return growth;
 }
 
-Skeleton draw(const Scene& scene, const Growth& growth) {
-  return interpret(growth.word, growth.grammar ? &*growth.grammar : nullptr, scene.turtle);
+Skeleton draw(const Scene& scene, const Growth& growth, const Listener& listener) {
+  TurtleOptions options = scene.turtle;
+  options.notify = listener.notify;
+  const Grammar* const grammar = growth.grammar ? &*growth.grammar : nullptr;
+  return naming_file(scene.model.file, [&] { return interpret(growth.word, grammar, options); });
 }
 
 Skeleton make_skeleton(const Scene& scene, const Listener& listener) {
-  if (has_word(scene)) return draw(scene, grow(scene, listener));
+  if (has_word(scene)) return draw(scene, grow(scene, listener), listener);
   if (!has_skeleton(scene)) {
     throw InputError({scene.model.file, 0, 0, ""},
                      "expected a model with a skeleton; this one is a tree written by hand");
   }
-  return read_skeleton_table(text_in_place(scene.model), scene.model.file);
+  return read_skeleton_table(scene.model.text, scene.model.file);
 }
 
 Model make_model(const Scene& scene, const Listener& listener) {
   if (has_skeleton(scene)) return make_model(scene, make_skeleton(scene, listener));
-  return {{}, parse_tree(scene.model.text, scene.model.file, scene.model.first_line)};
+  return {{}, parse_tree(scene.model.text, scene.model.file)};
 }
 
 Model make_model(const Scene& scene, Skeleton skeleton) {
@@ -148,6 +161,14 @@ RenderScene make_render_scene(const Scene& scene, const Field& field) {
   look.ground = scene.ground;
   look.material = scene.material;
   return look;
+}
+
+void write_picture(const Image& image, const Scene& scene, const Model& model, const std::string& path) {
+  write_image(image, path,
+              {{"barkridge/version", version()},
+               {"barkridge/scene_sha256", scene_hash(scene, model)},
+               {"barkridge/seed", fmt::format("{}", scene.image.seed)},
+               {"barkridge/samples_per_pixel", fmt::format("{}", scene.image.samples_per_pixel)}});
 }
 
 void write_surface(const Mesh& mesh, const Scene& scene, const Model& model, const std::string& path) {

@@ -46,7 +46,7 @@ struct Growth {
 Growth grow(const Scene& scene, const Listener& listener = {});
 
 /// The skeleton that the turtle draws.
-Skeleton draw(const Scene& scene, const Growth& growth);
+Skeleton draw(const Scene& scene, const Growth& growth, const Listener& listener = {});
 
 /// The scene's skeleton, from whatever source: read, or grown and drawn. Throws `InputError` if a tree is its model.
 Skeleton make_skeleton(const Scene& scene, const Listener& listener = {});

@@ -14,7 +14,7 @@
 
 namespace barkridge {
 
-/// Where the model comes from: the text itself, and its place for messages.
+/// Where the model comes from.
 struct ModelSource {
   enum class Kind {
     kLsystem,   ///< an L-system in cpfg's language
@@ -23,10 +23,10 @@ struct ModelSource {
     kTree,      ///< a BlobTree in its text form
   };
   Kind kind = Kind::kTree;
+  /// The model's own text. One that stands inside a scene has as many empty lines and blanks before it as it has lines
+  /// and characters before it there, so that messages about it have the scene's lines.
   std::string text;
-  /// The file in which the text stands, and the line where it begins there.
-  std::string file;
-  int first_line = 1;
+  std::string file;  ///< where the text stands, for messages
 };
 
 /// A camera whose place may be left to the program: without a position it stands in the direction given by the angles,

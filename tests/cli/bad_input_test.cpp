@@ -23,8 +23,8 @@ const std::string kTable = "# barkridge skeleton 1\n";
 }  // namespace
 
 TEST_CASE("numbers that are not finite are refused in every kind of input") {
-  check_refused("a.skel", kTable + "0 -1 0 0 nan 0 1 0 0.1 0.1\n", ":2:", "finite");
-  check_refused("a.skel", kTable + "0 -1 0 0 0 0 inf 0 0.1 0.1\n", ":2:", "finite");
+  check_refused("a.skel", kTable + "0 -1 0 0 nan 0 1 0 0.1 0.1\n", ":2:10: ", "nan");
+  check_refused("a.skel", kTable + "0 -1 0 0 0 0 inf 0 0.1 0.1\n", ":2:14: ", "inf");
   check_refused("a.toml", "model.tree = 'cone()'\nsky.intensity = nan\n",
                 ":2:17: ", "sky.intensity: expected a finite number");
   check_refused("a.toml", "model.tree = 'cone(tip = 0 inf 0)'\n", ":1:", "finite");

@@ -58,7 +58,7 @@ TEST_CASE("wrong usage is told apart from failure and names what is wrong") {
   check_usage_error({"info", "a.skel", "--fast"}, "--fast");
   check_usage_error({"info", "a.skel", "b.skel"}, "b.skel");
   check_usage_error({"field", "a.skel"}, "--points");
-  check_usage_error({"info", "a.skel", "-D"}, "-D");
+  check_usage_error({"info", "a.skel", "-D"}, "--define: 1 required KEY=VALUE missing");
 }
 
 TEST_CASE("wrong values of options name the option and what it takes") {

@@ -146,7 +146,6 @@ TEST_CASE("models of every kind are files with the default look") {
     CHECK(scene.model.kind == kind);
     CHECK(scene.model.text == "content of " + name);
     CHECK(scene.model.file == path);
-    CHECK(scene.model.first_line == 1);
     CHECK(scene.image.width == RenderOptions{}.width);
   }
   CHECK_THROWS_WITH(load_scene(folder.write("a.obj", "")),
@@ -172,12 +171,11 @@ TEST_CASE("a model's path is relative to its scene") {
   CHECK_THAT(error.message(), Contains("a.skel") && Contains("No such file"));
 }
 
-TEST_CASE("a text in a scene knows the line where it stands") {
-  CHECK(load_text("\n[model]\ntree = '''\ncone()\n'''\n").model.first_line == 4);
-  CHECK(load_text("\n[model]\ntree = '''\r\ncone()\n'''\n").model.first_line == 4);
-  const Scene scene = load_text("[model]\ntree = '''cone()\n'''\n");
-  CHECK(scene.model.first_line == 2);
-  CHECK(scene.model.text == std::string(10, ' ') + "cone()\n");
+TEST_CASE("a text in a scene keeps its lines and columns") {
+  CHECK(load_text("\n[model]\ntree = '''\ncone()\n'''\n").model.text == "\n\n\ncone()\n");
+  CHECK(load_text("\n[model]\ntree = '''\r\ncone()\n'''\n").model.text == "\n\n\ncone()\n");
+  CHECK(load_text("[model]\ntree = '''cone()\n'''\n").model.text == "\n          cone()\n");
+  CHECK(load_text("[model]\ntree = \"cone()\"\n").model.text == "\n        cone()");
 }
 
 TEST_CASE("a scene needs exactly one model") {

@@ -78,7 +78,7 @@ TEST_CASE("the thinnest radius follows the scales above a primitive") {
   const NodeId ring = tree.add(Ring{{0, 0, 0}, {0, 1, 0}, 1, 0.2});
   tree.add(Sum{}, {tapered, ring});
   CHECK(thinnest_radius({{}, tree}) == Approx(0.125));
-  CHECK(thinnest_radius({}) == 0);
+  CHECK(thinnest_radius(Model{}) == 0);
 }
 
 TEST_CASE("an empty model has no cell size unless the scene gives one") {

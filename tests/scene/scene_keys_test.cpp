@@ -1,5 +1,7 @@
 #include "scene/scene_keys.h"
 
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -17,9 +19,9 @@ Scene load_with(const ScratchFolder& folder, const std::string& definition) {
   return load_scene(folder.path("a.toml"), overrides);
 }
 
-std::string name_of_any(std::string name) {
+std::string name_of_any(const std::string& name) {
   const std::size_t any = name.find("NAME");
-  return any == std::string::npos ? name : name.replace(any, 4, "X");
+  return any == std::string::npos ? name : fmt::format("{}X", name.substr(0, any));
 }
 
 }  // namespace
