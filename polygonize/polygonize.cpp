@@ -11,13 +11,18 @@
 #include <mutex>
 #include <vector>
 
+#include "polygonize/crease_closing.h"
 #include "polygonize/lattice.h"
+#include "polygonize/small_cavities.h"
 #include "polygonize/stitch.h"
 #include "polygonize/surface_block.h"
 
 namespace barkridge {
 
 namespace {
+
+// Hollows less than this many cells across cannot be told from the bottoms of creases.
+constexpr double kSmallCavity = 3;
 
 // Share of the progress that finding the surface takes; stitching is the rest.
 constexpr double kSearchShare = 0.98;
@@ -45,10 +50,10 @@ class SurfaceSearch {
    public:
     SurfaceSearch(const Lattice& lattice, const PolygonizeOptions& options) : lattice_(lattice), options_(options) {}
 
-    // `share` is the share of all work that the range stands for.
+    // `field` is restricted to the range's box with its halo. `share` is the share of all work that the range stands for.
     void visit(const BlockRange& range, const Field& field, double share) {
         if (range.is_single()) {
-            visit_block(range.lo, field);
+            visit_block(range, field);
             add_progress(share);
             return;
         }
@@ -61,7 +66,7 @@ class SurfaceSearch {
         tbb::parallel_for(
             std::size_t{0}, parts.size(),
             [&](std::size_t i) {
-                const auto restricted = field.restricted(box_of(lattice_, parts[i]));
+                const auto restricted = field.restricted(box_with_halo(parts[i]));
                 visit(parts[i], *restricted, share / static_cast<double>(parts.size()));
             },
             tbb::simple_partitioner{});
@@ -87,12 +92,19 @@ class SurfaceSearch {
         return !(value.hi < kIsoValue) && !(value.lo >= kIsoValue);
     }
 
-    void visit_block(const glm::ivec3& coordinates, const Field& field) {
+    Box box_with_halo(const BlockRange& range) const {
+        // A little more than the halo, so that rounding leaves no lattice point outside.
+        return grown(box_of(lattice_, range), (kCreaseHalo + 0.01) * lattice_.cell_size);
+    }
+
+    void visit_block(const BlockRange& single, const Field& with_halo) {
         Local& local = locals_.local();
-        std::optional<SurfaceBlock> block = sample_block(lattice_, field, coordinates, local.scratch);
+        const auto restricted = with_halo.restricted(box_of(lattice_, single));
+        std::optional<SurfaceBlock> block =
+            sample_block(lattice_, *restricted, options_.close_creases ? &with_halo : nullptr, single.lo, local.scratch);
         if (!block) return;
         check_limits(triangle_count_ += block->triangle_count, vertex_count_ += block->numbers.count());
-        place_vertices(lattice_, field, *block, local.scratch);
+        place_vertices(lattice_, *restricted, *block, local.scratch);
         local.blocks.push_back(std::move(*block));
     }
 
@@ -136,6 +148,7 @@ Mesh polygonize(const Field& field, const PolygonizeOptions& options) {
         SurfaceSearch search(lattice, options);
         search.visit(blocks_around(lattice, support), field, 1);
         mesh = stitch(search.take_blocks());
+        if (options.close_creases) fill_small_cavities(mesh, kSmallCavity * options.cell_size);
     }
     report(options.progress, 1);
     return mesh;

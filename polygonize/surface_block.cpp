@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "polygonize/cell_cases.h"
+#include "polygonize/crease_closing.h"
 
 namespace barkridge {
 
@@ -15,17 +16,26 @@ constexpr int kPointCount = kBlockPoints * kBlockPoints * kBlockPoints;
 
 constexpr int point_index(int x, int y, int z) { return (z * kBlockPoints + y) * kBlockPoints + x; }
 
-void sample(const Lattice& lattice, const Field& field, const glm::ivec3& coordinates, BlockScratch& scratch) {
-    scratch.points.resize(kPointCount);
-    scratch.values.resize(kPointCount);
-    const glm::ivec3 first = kBlockCells * coordinates;
-    int i = 0;
-    for (int z = 0; z < kBlockPoints; ++z) {
-        for (int y = 0; y < kBlockPoints; ++y) {
-            for (int x = 0; x < kBlockPoints; ++x) scratch.points[i++] = lattice.point(first + glm::ivec3(x, y, z));
+// Samples a cube of lattice points from `first` on.
+void sample(const Lattice& lattice, const Field& field, const glm::ivec3& first, int points_a_side,
+            std::vector<Vec3>& points, std::vector<double>& values) {
+    points.clear();
+    for (int z = 0; z < points_a_side; ++z) {
+        for (int y = 0; y < points_a_side; ++y) {
+            for (int x = 0; x < points_a_side; ++x) points.push_back(lattice.point(first + glm::ivec3(x, y, z)));
         }
     }
-    field.values(scratch.points, scratch.values);
+    values.resize(points.size());
+    field.values(points, values);
+}
+
+// Raises the bottoms of creases among a block's samples to the iso-value.
+void raise_crease_bottoms(const Lattice& lattice, const Field& with_halo, const glm::ivec3& first, BlockScratch& scratch) {
+  if (!may_have_crease_bottoms(lattice, with_halo, first, scratch.values, scratch.halo_points, scratch.halo_values)) return;
+  sample(lattice, with_halo, first - kCreaseHalo, kHaloPoints, scratch.halo_points, scratch.halo_values);
+  for (const glm::ivec3& bottom : crease_bottoms(scratch.halo_values)) {
+    scratch.values[point_index(bottom.x, bottom.y, bottom.z)] = kIsoValue;
+  }
 }
 
 InsideRows find_inside(const std::vector<double>& values) {
@@ -93,9 +103,11 @@ VertexNumbers::VertexNumbers(const InsideRows& inside) {
     }
 }
 
-std::optional<SurfaceBlock> sample_block(const Lattice& lattice, const Field& field, const glm::ivec3& coordinates,
-                                         BlockScratch& scratch) {
-    sample(lattice, field, coordinates, scratch);
+std::optional<SurfaceBlock> sample_block(const Lattice& lattice, const Field& field, const Field* with_halo,
+                                         const glm::ivec3& coordinates, BlockScratch& scratch) {
+    const glm::ivec3 first = kBlockCells * coordinates;
+    sample(lattice, field, first, kBlockPoints, scratch.points, scratch.values);
+    if (with_halo) raise_crease_bottoms(lattice, *with_halo, first, scratch);
     SurfaceBlock block;
     block.coordinates = coordinates;
     block.inside = find_inside(scratch.values);

@@ -73,6 +73,8 @@ void for_each_surface_cell(const InsideRows& inside, const Visit& visit) {
 struct BlockScratch {
     std::vector<Vec3> points;
     std::vector<double> values;
+    std::vector<Vec3> halo_points;
+    std::vector<double> halo_values;
     std::vector<Vec3> gradients;
     std::vector<EdgeCrossing> crossings;
     RootScratch roots;
@@ -80,8 +82,10 @@ struct BlockScratch {
 
 /// Samples `field`, which need only be valid in the block's box, at the block's lattice points. Nothing when all are on
 /// the same side; else a block with all but its vertices' places. The samples stay in `scratch`.
-std::optional<SurfaceBlock> sample_block(const Lattice& lattice, const Field& field, const glm::ivec3& coordinates,
-                                         BlockScratch& scratch);
+/// Given the same field for the box grown by kCreaseHalo cells, the bottoms of creases count as inside
+/// (polygonize/crease_closing.h).
+std::optional<SurfaceBlock> sample_block(const Lattice& lattice, const Field& field, const Field* with_halo,
+                                         const glm::ivec3& coordinates, BlockScratch& scratch);
 
 /// Finds positions and normals of the block's vertices, from the samples that `sample_block` has just left in
 /// `scratch`.

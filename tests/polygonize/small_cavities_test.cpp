@@ -1,0 +1,46 @@
+#include "polygonize/small_cavities.h"
+
+#include <catch2/catch.hpp>
+
+#include "polygonize/polygonize.h"
+#include "tests/support/mesh_checks.h"
+
+using namespace barkridge;
+
+namespace {
+
+// An octahedron around a point, oriented outwards, or inwards as around a hollow.
+void add_octahedron(Mesh& mesh, const glm::vec3& center, float radius, bool hollow) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float side : {radius, -radius}) {
+      glm::vec3 p = center;
+      p[axis] += side;
+      mesh.positions.push_back(p);
+      mesh.normals.push_back(glm::normalize(hollow ? center - p : p - center));
+    }
+  }
+  for (std::uint32_t octant = 0; octant < 8; ++octant) {
+    const std::uint32_t x = first + (octant & 1), y = first + 2 + (octant >> 1 & 1), z = first + 4 + (octant >> 2);
+    const bool mirrored = ((octant ^ octant >> 1 ^ octant >> 2) & 1) != 0;
+    mesh.triangles.push_back(mirrored != hollow ? std::array{x, z, y} : std::array{x, y, z});
+  }
+}
+
+}  // namespace
+
+TEST_CASE("small hollows are filled, large ones and small solids stay") {
+  Mesh mesh;
+  add_octahedron(mesh, {0, 0, 0}, 1, true);      // a hollow 2 across
+  add_octahedron(mesh, {0, 0, 0}, 10, false);    // the solid around it
+  add_octahedron(mesh, {3, 0, 0}, 2, true);      // a hollow 4 across
+  add_octahedron(mesh, {20, 0, 0}, 1, false);    // a speck
+  const double volume = examine(mesh).volume;
+  fill_small_cavities(mesh, 3);
+  const MeshReport report = testing::require_closed_manifold(mesh);
+  CHECK(report.components == 3);
+  CHECK(mesh.positions.size() == 18);
+  CHECK(mesh.normals.size() == 18);
+  // The filled hollow had the volume of an octahedron of radius 1.
+  CHECK(report.volume == Approx(volume + 4.0 / 3));
+}

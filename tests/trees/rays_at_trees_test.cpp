@@ -1,0 +1,110 @@
+// Whole trees under rays, against a march that knows no bounds.
+
+#include <catch2/catch.hpp>
+
+#include "blobtree/from_skeleton.h"
+#include "raytrace/tracer.h"
+#include "tests/support/skeletons.h"
+
+using namespace barkridge;
+using namespace barkridge::test;
+
+namespace {
+
+// Samples along a ray, all at once.
+struct March {
+  const Field& field;
+  std::vector<Vec3> points;
+  std::vector<double> values;
+
+  double value(const Ray& ray, double t) {
+    const Vec3 p = ray.at(t);
+    double f = 0;
+    field.values({&p, 1}, {&f, 1});
+    return f;
+  }
+
+  // The first inside point that `count` samples show, or infinity.
+  double first_inside(const Ray& ray, double from, double to, int count) {
+    points.resize(static_cast<std::size_t>(count) + 1);
+    values.resize(points.size());
+    for (int i = 0; i <= count; ++i) points[static_cast<std::size_t>(i)] = ray.at(from + (to - from) * i / count);
+    field.values(points, values);
+    for (int i = 0; i <= count; ++i) {
+      if (values[static_cast<std::size_t>(i)] < kIsoValue) continue;
+      if (i == 0) return from;
+      double outside = from + (to - from) * (i - 1) / count, inside = from + (to - from) * i / count;
+      for (int k = 0; k < 50; ++k) {
+        const double middle = 0.5 * (outside + inside);
+        (value(ray, middle) >= kIsoValue ? inside : outside) = middle;
+      }
+      return inside;
+    }
+    return std::numeric_limits<double>::infinity();
+  }
+};
+
+struct Counts {
+  int rays = 0, hits = 0, found_only_by_bounds = 0;
+};
+
+void shoot(const Skeleton& skeleton, JunctionKind junction, double bend_degrees, std::uint64_t seed, int rays,
+           Counts& counts) {
+  TreeOptions options;
+  options.junction = junction;
+  options.bend_angle_degrees = bend_degrees;
+  const auto field = compile(tree_from_skeleton(skeleton, options));
+  const Tracer tracer(*field);
+  March march{*field, {}, {}};
+  const double size = field->support().diagonal();
+  RandomSource random(seed);
+  for (int i = 0; i < rays; ++i) {
+    // At a point near an internode's surface, so that many rays graze.
+    const Internode& a =
+        skeleton
+            .internodes[static_cast<std::size_t>(random.integer(0, static_cast<int>(skeleton.internodes.size()) - 1))];
+    const Vec3 target = a.base + random.uniform(-0.1, 1.1) * (a.tip - a.base) +
+                        random.uniform(0.7, 1.3) * a.base_radius * random.direction();
+    const Vec3 direction = random.direction();
+    const Ray ray{target - size * direction, direction};
+    const double expected = march.first_inside(ray, 0, 2 * size, 1500);
+    const auto hit = tracer.first_hit(ray);
+    ++counts.rays;
+    CAPTURE(seed, i, expected);
+    REQUIRE(tracer.occluded(ray) == hit.has_value());
+    if (!hit) {
+      REQUIRE(expected == std::numeric_limits<double>::infinity());
+      continue;
+    }
+    ++counts.hits;
+    CAPTURE(hit->t);
+    const double tolerance = 1e-6 * size;
+    REQUIRE(hit->t <= expected + tolerance);
+    if (hit->t < expected - tolerance) {
+      // The samples stepped over a sliver: it must be there.
+      ++counts.found_only_by_bounds;
+      REQUIRE(march.first_inside(ray, hit->t - tolerance, hit->t + tolerance, 200) <= hit->t + tolerance);
+    }
+    REQUIRE(glm::length(hit->normal) == Approx(1));
+  }
+}
+
+void shoot_at_trees(int trees, int rays_a_tree, int internodes) {
+  Counts counts;
+  for (int i = 0; i < trees; ++i) {
+    const auto seed = static_cast<std::uint64_t>(i);
+    shoot(random_skeleton(seed, internodes), i % 2 ? JunctionKind::kRidge : JunctionKind::kSmooth, i % 5 == 4 ? 25 : 0,
+          100 + seed, rays_a_tree, counts);
+  }
+  CHECK(counts.hits > counts.rays / 4);
+  CHECK(counts.hits < counts.rays);
+  CHECK(counts.found_only_by_bounds < counts.rays / 100);
+}
+
+}  // namespace
+
+TEST_CASE("random rays meet random trees where a dense march says") { shoot_at_trees(20, 500, 14); }
+
+TEST_CASE("a hundred thousand random rays meet random trees where a dense march says", "[long]") {
+  shoot_at_trees(50, 2000, 25);
+}
