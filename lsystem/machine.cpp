@@ -49,7 +49,7 @@ void Machine::warn(std::uint32_t place, const std::string& message) {
 }
 
 void Machine::refuse_parameter(const Program& program, double value) const {
-  const std::uint32_t place = program.empty() ? 0 : program.front().place;
+  const std::uint32_t place = first_place(program);
   if (std::isfinite(value)) {
     throw InputError(grammar_.source.place(place),
                      fmt::format("this parameter is {:g}, too large for a module", value));
