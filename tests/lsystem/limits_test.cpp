@@ -50,6 +50,11 @@ TEST_CASE("expressions and statements may not be nested without bound") {
   CHECK(value_of(sum) == "1001");
 }
 
+TEST_CASE("a loop that never ends is stopped") {
+  CHECK_THROWS_AS(value_of("1", "start: { while (1) { x = 1; } }\n"), LimitError);
+  CHECK(value_of("x", "start: { while (x < 100000) { x = x + 1; } }\n") == "100000");
+}
+
 TEST_CASE("a skeleton stops growing at its limits") {
   const Word word = parse_word("FFF[[F]]", "test.str");
   TurtleOptions options;
