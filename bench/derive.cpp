@@ -30,6 +30,6 @@ int main() {
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  std::printf("%zu modules, %zu parameters: %.2f s, %.0f MB peak\n", word.modules.size(), word.parameters.size(), seconds,
-              static_cast<double>(usage.ru_maxrss) / 1024);
+  std::printf("%zu modules, %zu parameters: %.2f s, %.0f MB peak\n", word.modules.size(), word.parameters.size(),
+              seconds, static_cast<double>(usage.ru_maxrss) / 1024);
 }

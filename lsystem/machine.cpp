@@ -13,8 +13,8 @@ namespace barkridge {
 
 namespace {
 
-// About ten seconds of an empty loop.
-constexpr std::uint64_t kMaxIterations = 1'000'000'000;
+// Of one block's loops; about a second.
+constexpr std::uint64_t kMaxIterations = 100'000'000;
 constexpr std::size_t kMaxWarnings = 1000;
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
@@ -49,7 +49,7 @@ void Machine::warn(std::uint32_t place, const std::string& message) {
 }
 
 void Machine::refuse_parameter(const Program& program, double value) const {
-  const std::uint32_t place = program.empty() ? 0 : program.front().place;
+  const std::uint32_t place = first_place(program);
   if (std::isfinite(value)) {
     throw InputError(grammar_.source.place(place),
                      fmt::format("this parameter is {:g}, too large for a module", value));
@@ -87,11 +87,9 @@ void Machine::print(const Instruction& instruction, const double* values) {
   notify(listener_, format_printf(format, std::vector<double>(values, values + instruction.operand % 256)));
 }
 
-void Machine::count_iteration(const Instruction& instruction) {
-  if (++iterations_ > kMaxIterations) {
-    throw LimitError(grammar_.source.place(instruction.place),
-                     fmt::format("loops ran {} times in all; this one may never end", kMaxIterations));
-  }
+void Machine::refuse_iteration(const Instruction& instruction) const {
+  throw LimitError(grammar_.source.place(instruction.place),
+                   fmt::format("the loops of these statements ran {} times; this one may never end", kMaxIterations));
 }
 
 double Machine::run_instructions(const Program& program) {
@@ -103,6 +101,7 @@ double Machine::run_instructions(const Program& program) {
   };
   const auto unary = [&top](auto&& result) { top[-1] = result(top[-1]); };
   RandomStreams& random = state.random;
+  std::uint64_t iterations = 0;
 
   for (std::size_t next = 0; next < program.size();) {
     const Instruction& instruction = program[next++];
@@ -153,7 +152,7 @@ double Machine::run_instructions(const Program& program) {
         unary([](double a) { return a != 0; });
         break;
       case Op::kCountIteration:
-        count_iteration(instruction);
+        if (++iterations > kMaxIterations) refuse_iteration(instruction);
         break;
       case Op::kNegate:
         unary([](double a) { return -a; });

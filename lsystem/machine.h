@@ -55,12 +55,11 @@ class Machine {
   double remainder(double a, double b, std::uint32_t place);
   std::size_t element_slot(const Instruction& instruction, const double* indices);
   void print(const Instruction& instruction, const double* values);
-  void count_iteration(const Instruction& instruction);
+  [[noreturn]] void refuse_iteration(const Instruction& instruction) const;
 
   const GrammarDefinition& grammar_;
   Notify listener_;
   std::set<std::pair<std::uint32_t, std::string>> warned_;
-  std::uint64_t iterations_ = 0;
 };
 
 /// What C's `printf` would write, each conversion taking one number. Values that are missing count as 0.

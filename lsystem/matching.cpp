@@ -65,7 +65,7 @@ float Matcher::weight(const Production& production) {
   if (production.weight.empty()) return 1;
   const float weight = machine_.run_parameter(production.weight);
   if (weight < 0) {
-    throw InputError(grammar_.source.place(production.weight.front().place),
+    throw InputError(grammar_.source.place(first_place(production.weight)),
                      fmt::format("a production's weight must not be negative, but is {:g}", weight));
   }
   return weight;

@@ -317,10 +317,10 @@ class Preprocessor {
       const std::string_view parameter = leading_name(list);
       list = trim(list.substr(parameter.size()));
       const bool comma = list.starts_with(",");
-      if (parameter.empty() || (!comma && !list.empty())) {
+      if (comma) list = trim(list.substr(1));
+      if (parameter.empty() || comma == list.empty()) {
         fail(file, directive.rest_offset, "a macro's parameters are names with commas between them");
       }
-      if (comma) list = trim(list.substr(1));
       macro.parameters.emplace_back(parameter);
     }
     return rest.substr(close + 1);

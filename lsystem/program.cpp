@@ -68,6 +68,11 @@ int stack_effect(Op op) {
   }
 }
 
+std::uint32_t first_place(const Program& program) {
+  const auto earlier = [](const Instruction& a, const Instruction& b) { return a.place < b.place; };
+  return std::min_element(program.begin(), program.end(), earlier)->place;
+}
+
 void append_program(Program& program, const Program& tail) {
   const auto base = static_cast<std::uint32_t>(program.size());
   for (Instruction instruction : tail) {

@@ -79,6 +79,9 @@ inline constexpr int kMaxStack = 256;
 /// How the stack's height changes, apart from the indices and values that kLoadElement, kStoreElement and kPrintf take.
 int stack_effect(Op op);
 
+/// The place where the text of a program that is not empty begins.
+std::uint32_t first_place(const Program& program);
+
 /// Appends a program, moving its jumps.
 void append_program(Program& program, const Program& tail);
 

@@ -32,6 +32,7 @@ void SourceText::append_expansion(std::string_view text, FileId file, std::size_
 
 SourceLocation SourceText::place(std::size_t offset) const {
   if (runs_.empty()) return files_.empty() ? SourceLocation{} : place_in_file(0, 0);
+  offset = std::min(offset, text_.size() - 1);
   const auto after = std::upper_bound(runs_.begin(), runs_.end(), offset,
                                       [](std::size_t value, const Run& run) { return value < run.begin; });
   const Run& run = *(after == runs_.begin() ? after : after - 1);

@@ -31,7 +31,7 @@ class SourceText {
   void append_expansion(std::string_view text, FileId file, std::size_t offset);
 
   std::string_view text() const { return text_; }
-  /// Where the author wrote the byte at `offset` of `text()`; its end is the place after the last byte.
+  /// Where the author wrote the byte at `offset` of `text()`; its end is shown at the last byte, a newline.
   SourceLocation place(std::size_t offset) const;
   /// The same for a byte of a file.
   SourceLocation place_in_file(FileId file, std::size_t offset) const;
