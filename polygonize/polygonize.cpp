@@ -21,9 +21,6 @@ namespace barkridge {
 
 namespace {
 
-// Hollows less than this many cells across cannot be told from the bottoms of creases.
-constexpr double kSmallCavity = 3;
-
 // Share of the progress that finding the surface takes; stitching is the rest.
 constexpr double kSearchShare = 0.98;
 
@@ -148,7 +145,7 @@ Mesh polygonize(const Field& field, const PolygonizeOptions& options) {
         SurfaceSearch search(lattice, options);
         search.visit(blocks_around(lattice, support), field, 1);
         mesh = stitch(search.take_blocks());
-        if (options.close_creases) fill_small_cavities(mesh, kSmallCavity * options.cell_size);
+        if (options.close_creases) fill_small_cavities(mesh, options.cell_size);
     }
     report(options.progress, 1);
     return mesh;

@@ -13,7 +13,7 @@ struct PolygonizeOptions {
     double cell_size = 0;
     /// Most triangles; 0 means as many as 31-bit vertex indices allow.
     std::size_t max_triangles = 0;
-    /// Whether creases are closed at the bottom where they are narrower than a cell, and hollows less than three cells across filled, as
+    /// Whether creases are closed at the bottom where they are narrower than a cell, and hollows of about a cell filled, as
     /// the lattice cannot tell them from the bottoms of creases. Without this, signs at lattice points alone decide, and creases show spurious
     /// hollows and tunnels.
     bool close_creases = true;

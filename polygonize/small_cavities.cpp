@@ -32,15 +32,15 @@ std::vector<std::uint32_t> pieces_of(const Mesh& mesh) {
 }
 
 struct Piece {
-  Box box;
+  Vec3 origin{0};  // one of its vertices, to keep rounding small
   double volume = 0;
+  double area = 0;
 };
 
 }  // namespace
 
-void fill_small_cavities(Mesh& mesh, double size) {
+void fill_small_cavities(Mesh& mesh, double cell_size) {
   const std::vector<std::uint32_t> piece_of = pieces_of(mesh);
-  // Only small pieces are worth a volume, and there are few pieces.
   std::vector<std::uint32_t> roots;
   for (std::uint32_t v = 0; v < piece_of.size(); ++v) {
     if (piece_of[v] == v) roots.push_back(v);
@@ -50,21 +50,18 @@ void fill_small_cavities(Mesh& mesh, double size) {
     return static_cast<std::size_t>(std::lower_bound(roots.begin(), roots.end(), piece_of[vertex]) - roots.begin());
   };
   std::vector<Piece> pieces(roots.size());
-  for (std::uint32_t v = 0; v < piece_of.size(); ++v) {
-    Piece& piece = pieces[index_of(v)];
-    piece.box = unite(piece.box, Vec3(mesh.positions[v]));
-  }
+  for (std::size_t i = 0; i < roots.size(); ++i) pieces[i].origin = Vec3(mesh.positions[roots[i]]);
   for (const auto& triangle : mesh.triangles) {
     Piece& piece = pieces[index_of(triangle[0])];
-    const Vec3 a = Vec3(mesh.positions[triangle[0]]) - piece.box.lo;
-    const Vec3 b = Vec3(mesh.positions[triangle[1]]) - piece.box.lo;
-    const Vec3 c = Vec3(mesh.positions[triangle[2]]) - piece.box.lo;
+    const Vec3 a = Vec3(mesh.positions[triangle[0]]) - piece.origin;
+    const Vec3 b = Vec3(mesh.positions[triangle[1]]) - piece.origin;
+    const Vec3 c = Vec3(mesh.positions[triangle[2]]) - piece.origin;
     piece.volume += glm::dot(a, glm::cross(b, c)) / 6;
+    piece.area += glm::length(glm::cross(b - a, c - a)) / 2;
   }
   const auto is_small_cavity = [&](std::uint32_t vertex) {
     const Piece& piece = pieces[index_of(vertex)];
-    const Vec3 extent = piece.box.hi - piece.box.lo;
-    return piece.volume < 0 && std::max({extent.x, extent.y, extent.z}) < size;
+    return piece.volume < 0 && -piece.volume < 0.5 * cell_size * piece.area;
   };
 
   std::erase_if(mesh.triangles, [&](const auto& triangle) { return is_small_cavity(triangle[0]); });

@@ -36,7 +36,9 @@ Mesh checked(const AnalyticField& field, double cell_size) {
 }
 
 Mesh checked(const LatticeField& field) {
-    const Mesh mesh = polygonize(field, cells_of(1));
+    PolygonizeOptions options = cells_of(1);
+    options.close_creases = false;  // signs alone decide
+    const Mesh mesh = polygonize(field, options);
     require_closed_manifold(mesh);
     return mesh;
 }

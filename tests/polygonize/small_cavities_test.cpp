@@ -31,12 +31,13 @@ void add_octahedron(Mesh& mesh, const glm::vec3& center, float radius, bool holl
 
 TEST_CASE("small hollows are filled, large ones and small solids stay") {
   Mesh mesh;
-  add_octahedron(mesh, {0, 0, 0}, 1, true);      // a hollow 2 across
-  add_octahedron(mesh, {0, 0, 0}, 10, false);    // the solid around it
-  add_octahedron(mesh, {3, 0, 0}, 2, true);      // a hollow 4 across
-  add_octahedron(mesh, {20, 0, 0}, 1, false);    // a speck
+  // An octahedron of radius r has r / (3 sqrt 3) of volume for each unit of its area.
+  add_octahedron(mesh, {0, 0, 0}, 1, true);    // a small hollow
+  add_octahedron(mesh, {0, 0, 0}, 10, false);  // the solid around it
+  add_octahedron(mesh, {3, 0, 0}, 2, true);    // a larger hollow
+  add_octahedron(mesh, {20, 0, 0}, 1, false);  // a speck
   const double volume = examine(mesh).volume;
-  fill_small_cavities(mesh, 3);
+  fill_small_cavities(mesh, 0.6);
   const MeshReport report = testing::require_closed_manifold(mesh);
   CHECK(report.components == 3);
   CHECK(mesh.positions.size() == 18);
