@@ -263,9 +263,9 @@ TEST_CASE("more samples go where they are needed") {
     const Image image = render(*field, scene, picture(20, 20, 256));
     for (int y = 0; y < 20; ++y) {
         for (int x = 0; x < 20; ++x) {
-            // The tent filter's share of the half plane to the left of x = 1, the middle of the picture; a pixel is
-            // 0.001 wide.
-            const double edge = 10 - (x + 0.5);
+            // The tent filter's share of what lies left of the edge, which is x = 1 but for the ball's curvature. A
+            // pixel is 0.001 wide.
+            const double edge = 10 - (x + 0.5) - 0.5 * std::pow((y - 9.5) * 0.001, 2) / 0.001;
             const double e = std::clamp(edge, -1.0, 1.0);
             const double share = e < 0 ? 0.5 * (1 + e) * (1 + e) : 1 - 0.5 * (1 - e) * (1 - e);
             worst = std::max(worst, std::abs(share - image.rgba[4 * static_cast<std::size_t>(20 * y + x) + 3]));
