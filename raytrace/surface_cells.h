@@ -20,7 +20,7 @@ struct SurfaceCell {
 struct SurfaceCellOptions {
   /// Boxes are halved until the field cannot vary across one by more than this (its slope times the diagonal): the
   /// smaller, the closer cells fit the surface and the more of them there are.
-  double max_variation = 2;
+  double max_variation = 8;
   /// Boxes smaller than this share of the whole are not halved.
   double min_relative_size = 1e-6;
   /// Halving stops when there are this many boxes.
