@@ -46,7 +46,7 @@ struct Sky {
 struct Ground {
   bool enabled = true;
   double height = 0;
-  Color color{0.25, 0.24, 0.16};
+  Color color{0.25, 0.235, 0.175};
 };
 
 /// Lambert plus a rough specular lobe (GGX).
