@@ -21,14 +21,16 @@ struct PolygonizeOptions {
 /// so nothing is missed that the lattice can see and empty space is never sampled.
 ///
 /// Each lattice edge with one end inside has one vertex, at a root of the field (not of its linear interpolation) to
-/// 1e-6 of a cell, but at least 1e-3 of a cell away from the edge's ends, so that no two vertices coincide and every
-/// triangle has an area. Normals are the field's own, `-grad F / |grad F|`; where the gradient vanishes, the mean of
-/// the triangles'. The result depends on field and options only, to the bit, not on threads.
+/// 1e-6 of a cell, but at least 1e-3 of a cell away from the edge's ends (more where floats are too coarse for that),
+/// so that no two vertices coincide and every triangle has an area. Normals are the field's own, `-grad F / |grad F|`;
+/// where the gradient vanishes, the mean of the triangles'. The result depends on field and options only, to the bit,
+/// not on threads.
 ///
 /// Throws `InputError` for a cell size that is not positive or so small (about 1e-6 of the largest coordinate) that
-/// floats cannot tell vertices apart, `LimitError` as soon as the triangles found exceed the limit, `Cancelled`.
+/// floats cannot tell vertices apart, `LimitError` as soon as the triangles found exceed the limit, `Cancelled`;
+/// `std::logic_error` where the field's bounds or restrictions contradict its values.
 /// Memory: in proportion to the output. Cost: about 729 evaluations of the restricted field for every block of 8^3
-/// cells near the surface and 5 for every vertex.
+/// cells near the surface and 4 or 5 for every vertex.
 Mesh polygonize(const Field& field, const PolygonizeOptions& options);
 
 }  // namespace barkridge

@@ -26,26 +26,27 @@ struct Camera {
 
 /// A distant light. The direction points from the scene to the sun.
 struct Sun {
-    Vec3 direction{0.5, 0.7, 0.6};
-    Color color{1.0, 0.96, 0.88};
+    Vec3 direction{0.6, 0.65, 0.45};
+    Color color{1.0, 0.94, 0.83};
     /// Irradiance on a surface that faces the sun, divided by pi: a white Lambert surface then has this radiance.
-    double intensity = 2.5;
+    double intensity = 2.0;
     /// Full angle the sun subtends; 0 gives hard shadows.
     double angle_degrees = 0.53;
 };
 
-/// A sky dome, from `horizon` to `zenith` by the direction's height; it lights, and it is seen behind everything.
+/// A sky dome, from `horizon` to `zenith` by the direction's height, and `horizon` below; it lights, and it is seen
+/// behind everything. With intensity 0 there is none, and the picture is transparent where nothing is hit.
 struct Sky {
-    Color zenith{0.35, 0.52, 0.85};
-    Color horizon{0.80, 0.87, 0.95};
-    double intensity = 1;
+    Color zenith{0.24, 0.41, 0.78};
+    Color horizon{0.78, 0.86, 0.95};
+    double intensity = 0.9;
 };
 
-/// The horizontal plane y = height.
+/// The horizontal plane y = height. Far away, against the scene's size, it fades into the horizon.
 struct Ground {
     bool enabled = true;
     double height = 0;
-    Color color{0.32, 0.30, 0.24};
+    Color color{0.27, 0.25, 0.18};
 };
 
 /// Lambert plus a rough specular lobe (GGX).
@@ -78,7 +79,12 @@ struct RenderOptions {
     Progress progress;
 };
 
-/// A picture or a region of one: linear, premultiplied RGBA, rows from the top.
+/// Throw `InputError` that names the setting, as in "camera.fov_degrees" or "spp", and its range. `render` calls both.
+void check(const RenderScene& scene);
+void check(const RenderOptions& options);
+
+/// A picture or a region of one: linear, premultiplied RGBA, rows from the top. Alpha is 1 wherever there is
+/// something to see, the sky included.
 struct Image {
     int full_width = 0, full_height = 0;
     PixelRegion region;

@@ -285,6 +285,18 @@ TEST_CASE("far from the origin, vertices stay apart") {
     }
 }
 
+TEST_CASE("a field whose bounds are wrong makes no broken mesh in silence") {
+    class Liar : public AnalyticField {
+       public:
+        Liar() : AnalyticField(ball_field(Vec3(0), 1)) {}
+        FieldBounds bounds(const Box& box) const override {
+            return box.lo.x > 0 ? FieldBounds{} : AnalyticField::bounds(box);
+        }
+        std::shared_ptr<const Field> restricted(const Box&) const override { return std::make_shared<Liar>(); }
+    };
+    CHECK_THROWS_AS(polygonize(Liar(), cells_of(0.05)), std::logic_error);
+}
+
 TEST_CASE("cell sizes that cannot work are refused") {
     const AnalyticField field = ball_field({100, 0, 0}, 1);
     for (const double size : {0.0, -1.0, std::nan(""), double{INFINITY}}) {

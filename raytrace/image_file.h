@@ -1,0 +1,29 @@
+#pragma once
+// Pictures on the disk.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "raytrace/render.h"
+
+namespace barkridge {
+
+/// Names and texts for a picture's header, such as {"barkridge/version", "0.1.0"}. Nothing that may differ between
+/// equal pictures belongs here.
+using ImageMetadata = std::vector<std::pair<std::string, std::string>>;
+
+/// Throws `InputError` unless `write_image` knows the format by the path's extension. For a look before a long job.
+void check_image_path(const std::string& path);
+
+/// Writes a picture whole or not at all, in the format of the path's extension (upper or lower case):
+///   .exr  linear half floats, premultiplied RGBA, Rec. 709 primaries, zip; a region becomes the data window of the
+///   full
+///         display window. Metadata become attributes.
+///   .png  8-bit sRGB with unassociated alpha, values clipped at white; a region has its place in the oFFs chunk.
+///   Metadata become
+///         text chunks.
+/// Equal pictures and metadata give equal bytes. Throws `InputError` for other extensions, `IoError`.
+void write_image(const Image& image, const std::string& path, const ImageMetadata& metadata = {});
+
+}  // namespace barkridge
