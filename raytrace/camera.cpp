@@ -11,18 +11,17 @@ CameraRays::CameraRays(const Camera& camera, int width, int height)
       view_(glm::normalize(camera.target - camera.position)),
       width_(width),
       height_(height) {
-    const double half =
-        perspective_ ? std::tan(0.5 * camera.fov_degrees * std::numbers::pi / 180) : 0.5 * camera.height;
-    const Vec3 right = glm::normalize(glm::cross(view_, camera.up));
-    right_ = half * right;
-    down_ = half * glm::cross(view_, right);
+  const double half = perspective_ ? std::tan(0.5 * camera.fov_degrees * std::numbers::pi / 180) : 0.5 * camera.height;
+  const Vec3 right = glm::normalize(glm::cross(view_, camera.up));
+  right_ = half * right;
+  down_ = half * glm::cross(view_, right);
 }
 
 Ray CameraRays::through(double x, double y) const {
-    const double across = (2 * x - width_) / height_, down = 2 * y / height_ - 1;
-    const Vec3 offset = across * right_ + down * down_;
-    if (perspective_) return {position_, glm::normalize(view_ + offset)};
-    return {position_ + offset, view_};
+  const double across = (2 * x - width_) / height_, down = 2 * y / height_ - 1;
+  const Vec3 offset = across * right_ + down * down_;
+  if (perspective_) return {position_, glm::normalize(view_ + offset)};
+  return {position_ + offset, view_};
 }
 
 }  // namespace barkridge

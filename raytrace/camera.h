@@ -8,18 +8,18 @@ namespace barkridge {
 /// A checked camera in front of a picture of some size in pixels.
 class CameraRays {
  public:
-    CameraRays(const Camera& camera, int width, int height);
+  CameraRays(const Camera& camera, int width, int height);
 
-    /// The ray through a place in the picture, in pixels to the right of and below its top left corner. Perspective
-    /// rays start at the camera's position, orthographic ones on the plane through it across the view.
-    Ray through(double x, double y) const;
+  /// The ray through a place in the picture, in pixels to the right of and below its top left corner. Perspective
+  /// rays start at the camera's position, orthographic ones on the plane through it across the view.
+  Ray through(double x, double y) const;
 
  private:
-    bool perspective_;
-    Vec3 position_;
-    Vec3 view_;
-    Vec3 right_, down_;  // the length of half the picture's height
-    double width_, height_;
+  bool perspective_;
+  Vec3 position_;
+  Vec3 view_;
+  Vec3 right_, down_;  // the length of half the picture's height
+  double width_, height_;
 };
 
 }  // namespace barkridge

@@ -17,17 +17,17 @@ Color sky_average(const Sky& sky);
 /// The sun as a disc of directions.
 class SunDisc {
  public:
-    explicit SunDisc(const Sun& sun);
+  explicit SunDisc(const Sun& sun);
 
-    /// A unit direction towards a place on the disc, uniform over it for uniform `u`.
-    Vec3 direction(const glm::dvec2& u) const;
-    /// Irradiance on a surface that faces the sun.
-    const Color& irradiance() const { return irradiance_; }
+  /// A unit direction towards a place on the disc, uniform over it for uniform `u`.
+  Vec3 direction(const glm::dvec2& u) const;
+  /// Irradiance on a surface that faces the sun.
+  const Color& irradiance() const { return irradiance_; }
 
  private:
-    Vec3 center_, across_, along_;
-    double one_minus_cosine_;
-    Color irradiance_;
+  Vec3 center_, across_, along_;
+  double one_minus_cosine_;
+  Color irradiance_;
 };
 
 }  // namespace barkridge

@@ -14,14 +14,14 @@ Interval clip(const Ray& ray, const Box& box, Interval range);
 /// A field along the part of a ray inside a box. Points are kept inside the box against rounding, so a field that is
 /// restricted to the box is never asked elsewhere.
 struct FieldAlongRay {
-    const Field& field;
-    const Ray& ray;
-    const Box& box;
+  const Field& field;
+  const Ray& ray;
+  const Box& box;
 
-    Vec3 at(double t) const { return glm::clamp(ray.at(t), box.lo, box.hi); }
-    double value(double t) const;
-    /// Bounds over the box of the piece between two parameters.
-    FieldBounds bounds(double from, double to) const;
+  Vec3 at(double t) const { return glm::clamp(ray.at(t), box.lo, box.hi); }
+  double value(double t) const;
+  /// Bounds over the box of the piece between two parameters.
+  FieldBounds bounds(double from, double to) const;
 };
 
 /// The smallest t in `range` with F >= kIsoValue, or none. Nothing is missed that is thicker than `tolerance` along the

@@ -22,68 +22,68 @@ PathTracer::PathTracer(const Tracer& tracer, const RenderScene& scene)
       bark_(scene.material),
       dull_bark_(Material{scene.material.color, 0, 1}),
       ground_(Material{scene.ground.color, 0, 1}) {
-    const Box& box = tracer.scene_box();
-    const Vec3 to_target = scene.camera.target - scene.camera.position;
-    center_ = box.empty() ? scene.camera.target : box.center();
-    haze_radius_ = kHazeRadius * (box.empty() ? glm::length(to_target) : box.diagonal());
+  const Box& box = tracer.scene_box();
+  const Vec3 to_target = scene.camera.target - scene.camera.position;
+  center_ = box.empty() ? scene.camera.target : box.center();
+  haze_radius_ = kHazeRadius * (box.empty() ? glm::length(to_target) : box.diagonal());
 }
 
 std::optional<PathTracer::Surface> PathTracer::find_surface(const Ray& ray, const Scattering& bark) const {
-    double t_ground = std::numeric_limits<double>::infinity();
-    if (scene_.ground.enabled && ray.direction.y != 0) {
-        const double t = (scene_.ground.height - ray.origin.y) / ray.direction.y;
-        if (t > 0) t_ground = t;
-    }
-    if (const std::optional<Hit> hit = tracer_.first_hit(ray, 0, t_ground)) {
-        // Rounding may turn a grazed normal away from the ray; bend it back.
-        Vec3 normal = hit->normal;
-        const double facing = -glm::dot(normal, ray.direction);
-        if (facing < 1e-4) normal = glm::normalize(normal - (1e-4 - facing) * ray.direction);
-        return Surface{hit->outside_point(), normal, &bark};
-    }
-    if (!std::isfinite(t_ground)) return std::nullopt;
-    Vec3 point = ray.at(t_ground);
-    point.y = scene_.ground.height;
-    const double distance = std::hypot(point.x - center_.x, point.z - center_.z) / haze_radius_;
-    return Surface{point, {0, ray.direction.y < 0 ? 1 : -1, 0}, &ground_, true, 1 - std::exp(-distance * distance)};
+  double t_ground = std::numeric_limits<double>::infinity();
+  if (scene_.ground.enabled && ray.direction.y != 0) {
+    const double t = (scene_.ground.height - ray.origin.y) / ray.direction.y;
+    if (t > 0) t_ground = t;
+  }
+  if (const std::optional<Hit> hit = tracer_.first_hit(ray, 0, t_ground)) {
+    // Rounding may turn a grazed normal away from the ray; bend it back.
+    Vec3 normal = hit->normal;
+    const double facing = -glm::dot(normal, ray.direction);
+    if (facing < 1e-4) normal = glm::normalize(normal - (1e-4 - facing) * ray.direction);
+    return Surface{hit->outside_point(), normal, &bark};
+  }
+  if (!std::isfinite(t_ground)) return std::nullopt;
+  Vec3 point = ray.at(t_ground);
+  point.y = scene_.ground.height;
+  const double distance = std::hypot(point.x - center_.x, point.z - center_.z) / haze_radius_;
+  return Surface{point, {0, ray.direction.y < 0 ? 1 : -1, 0}, &ground_, true, 1 - std::exp(-distance * distance)};
 }
 
 // Whether the sun is seen, past the solid and the ground.
 bool PathTracer::lit_from(const Vec3& start, const Vec3& direction) const {
-    const double above = start.y - scene_.ground.height;
-    if (scene_.ground.enabled && above * direction.y < 0) return false;
-    return !tracer_.occluded({start, direction});
+  const double above = start.y - scene_.ground.height;
+  if (scene_.ground.enabled && above * direction.y < 0) return false;
+  return !tracer_.occluded({start, direction});
 }
 
 Color PathTracer::from_sun(const Surface& surface, const Vec3& view, const glm::dvec2& u) const {
-    const Vec3 light = sun_.direction(u);
-    const Color scattered = surface.scattering->evaluate(surface.normal, view, light) * sun_.irradiance();
-    if (scattered == Color(0) || !lit_from(surface.start, light)) return Color(0);
-    return scattered;
+  const Vec3 light = sun_.direction(u);
+  const Color scattered = surface.scattering->evaluate(surface.normal, view, light) * sun_.irradiance();
+  if (scattered == Color(0) || !lit_from(surface.start, light)) return Color(0);
+  return scattered;
 }
 
 Color PathTracer::from_surroundings(const Surface& surface, const Vec3& view, const PixelSampler& sampler,
                                     int sample) const {
-    const std::optional<ScatteredDirection> scattered = surface.scattering->sample(
-        surface.normal, view, sampler.pair(sample, Dimension::kBounce), sampler.pair(sample, Dimension::kLobe).x);
-    if (!scattered) return Color(0);
-    const Color background = sky_radiance(scene_.sky, scattered->direction);
-    const std::optional<Surface> second = find_surface({surface.start, scattered->direction}, dull_bark_);
-    if (!second) return scattered->weight * background;
+  const std::optional<ScatteredDirection> scattered = surface.scattering->sample(
+      surface.normal, view, sampler.pair(sample, Dimension::kBounce), sampler.pair(sample, Dimension::kLobe).x);
+  if (!scattered) return Color(0);
+  const Color background = sky_radiance(scene_.sky, scattered->direction);
+  const std::optional<Surface> second = find_surface({surface.start, scattered->direction}, dull_bark_);
+  if (!second) return scattered->weight * background;
 
-    const Color sky = (second->is_ground ? 1 : kSecondSkyShare) * sky_average_ * second->scattering->albedo();
-    const Color sun = from_sun(*second, -scattered->direction, sampler.pair(sample, Dimension::kBounceSun));
-    return scattered->weight * glm::mix(sky + sun, background, second->haze);
+  const Color sky = (second->is_ground ? 1 : kSecondSkyShare) * sky_average_ * second->scattering->albedo();
+  const Color sun = from_sun(*second, -scattered->direction, sampler.pair(sample, Dimension::kBounceSun));
+  return scattered->weight * glm::mix(sky + sun, background, second->haze);
 }
 
 Radiance PathTracer::along(const Ray& ray, const PixelSampler& sampler, int sample) const {
-    const Radiance background{sky_radiance(scene_.sky, ray.direction), scene_.sky.intensity > 0 ? 1.0 : 0.0};
-    const std::optional<Surface> surface = find_surface(ray, bark_);
-    if (!surface) return background;
-    const Vec3 view = -ray.direction;
-    const Color color = from_sun(*surface, view, sampler.pair(sample, Dimension::kSun)) +
-                        from_surroundings(*surface, view, sampler, sample);
-    return {glm::mix(color, background.color, surface->haze), glm::mix(1.0, background.alpha, surface->haze)};
+  const Radiance background{sky_radiance(scene_.sky, ray.direction), scene_.sky.intensity > 0 ? 1.0 : 0.0};
+  const std::optional<Surface> surface = find_surface(ray, bark_);
+  if (!surface) return background;
+  const Vec3 view = -ray.direction;
+  const Color color = from_sun(*surface, view, sampler.pair(sample, Dimension::kSun)) +
+                      from_surroundings(*surface, view, sampler, sample);
+  return {glm::mix(color, background.color, surface->haze), glm::mix(1.0, background.alpha, surface->haze)};
 }
 
 }  // namespace barkridge

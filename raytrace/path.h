@@ -13,42 +13,42 @@ namespace barkridge {
 
 /// Premultiplied colour and coverage.
 struct Radiance {
-    Color color{0};
-    double alpha = 0;
+  Color color{0};
+  double alpha = 0;
 };
 
 /// Estimates radiance with one path a sample: sunlight with shadows at the first surface, one scattered ray for the sky
 /// and for the surfaces around, which are themselves lit by the sun with shadows and by the sky's average.
 class PathTracer {
  public:
-    PathTracer(const Tracer& tracer, const RenderScene& scene);
+  PathTracer(const Tracer& tracer, const RenderScene& scene);
 
-    /// One sample of what arrives at the ray's origin from its direction.
-    Radiance along(const Ray& ray, const PixelSampler& sampler, int sample) const;
+  /// One sample of what arrives at the ray's origin from its direction.
+  Radiance along(const Ray& ray, const PixelSampler& sampler, int sample) const;
 
  private:
-    struct Surface {
-        Vec3 start;   // where secondary rays leave
-        Vec3 normal;  // on the viewer's side
-        const Scattering* scattering;
-        bool is_ground = false;
-        double haze = 0;  // share of the background in front of it
-    };
+  struct Surface {
+    Vec3 start;   // where secondary rays leave
+    Vec3 normal;  // on the viewer's side
+    const Scattering* scattering;
+    bool is_ground = false;
+    double haze = 0;  // share of the background in front of it
+  };
 
-    std::optional<Surface> find_surface(const Ray& ray, const Scattering& bark) const;
-    Color from_sun(const Surface& surface, const Vec3& view, const glm::dvec2& u) const;
-    Color from_surroundings(const Surface& surface, const Vec3& view, const PixelSampler& sampler, int sample) const;
-    bool lit_from(const Vec3& start, const Vec3& direction) const;
+  std::optional<Surface> find_surface(const Ray& ray, const Scattering& bark) const;
+  Color from_sun(const Surface& surface, const Vec3& view, const glm::dvec2& u) const;
+  Color from_surroundings(const Surface& surface, const Vec3& view, const PixelSampler& sampler, int sample) const;
+  bool lit_from(const Vec3& start, const Vec3& direction) const;
 
-    const Tracer& tracer_;
-    const RenderScene& scene_;
-    SunDisc sun_;
-    Color sky_average_;
-    Scattering bark_;
-    Scattering dull_bark_;  // without its lobe, as seen by scattered rays: highlights of highlights are only specks
-    Scattering ground_;
-    Vec3 center_;
-    double haze_radius_;
+  const Tracer& tracer_;
+  const RenderScene& scene_;
+  SunDisc sun_;
+  Color sky_average_;
+  Scattering bark_;
+  Scattering dull_bark_;  // without its lobe, as seen by scattered rays: highlights of highlights are only specks
+  Scattering ground_;
+  Vec3 center_;
+  double haze_radius_;
 };
 
 }  // namespace barkridge

@@ -29,145 +29,145 @@ constexpr double kUnlike = 1.0 / 32;
 
 // What the samples of a pixel add up to, in their order.
 struct PixelSum {
-    Color color{0};
-    double alpha = 0;
-    double shade = 0, shade_squared = 0;  // of brightness in display units
-    int count = 0;
+  Color color{0};
+  double alpha = 0;
+  double shade = 0, shade_squared = 0;  // of brightness in display units
+  int count = 0;
 
-    void add(const Radiance& sample) {
-        const bool finite = std::isfinite(sample.color.x + sample.color.y + sample.color.z + sample.alpha);
-        const Radiance s = finite ? sample : Radiance{};
-        const double luminance = 0.2126 * s.color.x + 0.7152 * s.color.y + 0.0722 * s.color.z;
-        const double display = std::sqrt(std::clamp(luminance, 0.0, 1.0)) + s.alpha;
-        color += s.color;
-        alpha += s.alpha;
-        shade += display;
-        shade_squared += display * display;
-        ++count;
-    }
-    double mean_shade() const { return shade / count; }
-    // The square of the standard error of the mean, as if the samples were independent.
-    double error_squared() const {
-        const double mean = mean_shade();
-        return std::max(0.0, shade_squared / count - mean * mean) / std::max(1, count - 1);
-    }
+  void add(const Radiance& sample) {
+    const bool finite = std::isfinite(sample.color.x + sample.color.y + sample.color.z + sample.alpha);
+    const Radiance s = finite ? sample : Radiance{};
+    const double luminance = 0.2126 * s.color.x + 0.7152 * s.color.y + 0.0722 * s.color.z;
+    const double display = std::sqrt(std::clamp(luminance, 0.0, 1.0)) + s.alpha;
+    color += s.color;
+    alpha += s.alpha;
+    shade += display;
+    shade_squared += display * display;
+    ++count;
+  }
+  double mean_shade() const { return shade / count; }
+  // The square of the standard error of the mean, as if the samples were independent.
+  double error_squared() const {
+    const double mean = mean_shade();
+    return std::max(0.0, shade_squared / count - mean * mean) / std::max(1, count - 1);
+  }
 };
 
 class TileRenderer {
  public:
-    TileRenderer(const Tracer& tracer, const RenderScene& scene, const RenderOptions& options)
-        : options_(options),
-          camera_(scene.camera, options.width, options.height),
-          path_(tracer, scene),
-          layout_(options.seed, options.width, options.height, options.samples_per_pixel) {}
+  TileRenderer(const Tracer& tracer, const RenderScene& scene, const RenderOptions& options)
+      : options_(options),
+        camera_(scene.camera, options.width, options.height),
+        path_(tracer, scene),
+        layout_(options.seed, options.width, options.height, options.samples_per_pixel) {}
 
-    // Renders the pixels of `tile`, and the first samples of those around it, which decide about them too.
-    void render(const PixelRegion& tile, Image& image) const {
-        const int x0 = std::max(0, tile.x - 1), x1 = std::min(options_.width, tile.x + tile.width + 1);
-        const int y0 = std::max(0, tile.y - 1), y1 = std::min(options_.height, tile.y + tile.height + 1);
-        const std::size_t stride = static_cast<std::size_t>(x1 - x0);
-        std::vector<PixelSum> first(stride * static_cast<std::size_t>(y1 - y0));
-        const auto at = [&](int x, int y) -> PixelSum& {
-            return first[static_cast<std::size_t>(y - y0) * stride + static_cast<std::size_t>(x - x0)];
-        };
-        for (int y = y0; y < y1; ++y) {
-            for (int x = x0; x < x1; ++x) add_samples(x, y, kFirstSamples, at(x, y));
-        }
-        for (int y = tile.y; y < tile.y + tile.height; ++y) {
-            for (int x = tile.x; x < tile.x + tile.width; ++x) {
-                bool edge = false;
-                for (int v = std::max(y - 1, y0); v <= std::min(y + 1, y1 - 1); ++v) {
-                    for (int u = std::max(x - 1, x0); u <= std::min(x + 1, x1 - 1); ++u) {
-                        edge = edge || std::abs(at(u, v).mean_shade() - at(x, y).mean_shade()) > kUnlike;
-                    }
-                }
-                PixelSum sum = at(x, y);
-                if (edge) add_samples(x, y, kEdgeSamples, sum);
-                while (sum.count < options_.samples_per_pixel && sum.error_squared() > kNoiseGoal * kNoiseGoal) {
-                    add_samples(x, y, 2 * sum.count, sum);
-                }
-                store(sum, x, y, image);
-            }
-        }
+  // Renders the pixels of `tile`, and the first samples of those around it, which decide about them too.
+  void render(const PixelRegion& tile, Image& image) const {
+    const int x0 = std::max(0, tile.x - 1), x1 = std::min(options_.width, tile.x + tile.width + 1);
+    const int y0 = std::max(0, tile.y - 1), y1 = std::min(options_.height, tile.y + tile.height + 1);
+    const std::size_t stride = static_cast<std::size_t>(x1 - x0);
+    std::vector<PixelSum> first(stride * static_cast<std::size_t>(y1 - y0));
+    const auto at = [&](int x, int y) -> PixelSum& {
+      return first[static_cast<std::size_t>(y - y0) * stride + static_cast<std::size_t>(x - x0)];
+    };
+    for (int y = y0; y < y1; ++y) {
+      for (int x = x0; x < x1; ++x) add_samples(x, y, kFirstSamples, at(x, y));
     }
+    for (int y = tile.y; y < tile.y + tile.height; ++y) {
+      for (int x = tile.x; x < tile.x + tile.width; ++x) {
+        bool edge = false;
+        for (int v = std::max(y - 1, y0); v <= std::min(y + 1, y1 - 1); ++v) {
+          for (int u = std::max(x - 1, x0); u <= std::min(x + 1, x1 - 1); ++u) {
+            edge = edge || std::abs(at(u, v).mean_shade() - at(x, y).mean_shade()) > kUnlike;
+          }
+        }
+        PixelSum sum = at(x, y);
+        if (edge) add_samples(x, y, kEdgeSamples, sum);
+        while (sum.count < options_.samples_per_pixel && sum.error_squared() > kNoiseGoal * kNoiseGoal) {
+          add_samples(x, y, 2 * sum.count, sum);
+        }
+        store(sum, x, y, image);
+      }
+    }
+  }
 
  private:
-    // Goes on until there are `count` samples, or as many as allowed.
-    void add_samples(int x, int y, int count, PixelSum& sum) const {
-        const PixelSampler sampler(layout_, x, y);
-        while (sum.count < std::min(count, options_.samples_per_pixel)) {
-            const glm::dvec2 u = sampler.pair(sum.count, Dimension::kPixel);
-            const Ray ray = camera_.through(x + 0.5 + tent(u.x), y + 0.5 + tent(u.y));
-            sum.add(path_.along(ray, sampler, sum.count));
-        }
+  // Goes on until there are `count` samples, or as many as allowed.
+  void add_samples(int x, int y, int count, PixelSum& sum) const {
+    const PixelSampler sampler(layout_, x, y);
+    while (sum.count < std::min(count, options_.samples_per_pixel)) {
+      const glm::dvec2 u = sampler.pair(sum.count, Dimension::kPixel);
+      const Ray ray = camera_.through(x + 0.5 + tent(u.x), y + 0.5 + tent(u.y));
+      sum.add(path_.along(ray, sampler, sum.count));
     }
+  }
 
-    // Importance sampling of the pixel filter, a tent one pixel to either side: a sample belongs to one pixel only.
-    static double tent(double u) { return u < 0.5 ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 - 2 * u); }
+  // Importance sampling of the pixel filter, a tent one pixel to either side: a sample belongs to one pixel only.
+  static double tent(double u) { return u < 0.5 ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 - 2 * u); }
 
-    static void store(const PixelSum& sum, int x, int y, Image& image) {
-        const std::size_t row = static_cast<std::size_t>(y - image.region.y);
-        const std::size_t column = static_cast<std::size_t>(x - image.region.x);
-        float* pixel = &image.rgba[4 * (row * static_cast<std::size_t>(image.region.width) + column)];
-        for (int c = 0; c < 3; ++c) pixel[c] = static_cast<float>(sum.color[c] / sum.count);
-        pixel[3] = static_cast<float>(sum.alpha / sum.count);
-    }
+  static void store(const PixelSum& sum, int x, int y, Image& image) {
+    const std::size_t row = static_cast<std::size_t>(y - image.region.y);
+    const std::size_t column = static_cast<std::size_t>(x - image.region.x);
+    float* pixel = &image.rgba[4 * (row * static_cast<std::size_t>(image.region.width) + column)];
+    for (int c = 0; c < 3; ++c) pixel[c] = static_cast<float>(sum.color[c] / sum.count);
+    pixel[3] = static_cast<float>(sum.alpha / sum.count);
+  }
 
-    const RenderOptions& options_;
-    CameraRays camera_;
-    PathTracer path_;
-    SampleLayout layout_;
+  const RenderOptions& options_;
+  CameraRays camera_;
+  PathTracer path_;
+  SampleLayout layout_;
 };
 
 // Tells how much is done, from one thread at a time.
 class SharedProgress {
  public:
-    SharedProgress(const Progress& progress, std::size_t total) : progress_(progress), total_(total) {}
+  SharedProgress(const Progress& progress, std::size_t total) : progress_(progress), total_(total) {}
 
-    void add(std::size_t amount) {
-        const std::lock_guard lock(mutex_);
-        done_ += amount;
-        report(progress_, static_cast<double>(done_) / static_cast<double>(total_));
-    }
+  void add(std::size_t amount) {
+    const std::lock_guard lock(mutex_);
+    done_ += amount;
+    report(progress_, static_cast<double>(done_) / static_cast<double>(total_));
+  }
 
  private:
-    const Progress& progress_;
-    std::size_t total_;
-    std::size_t done_ = 0;
-    std::mutex mutex_;
+  const Progress& progress_;
+  std::size_t total_;
+  std::size_t done_ = 0;
+  std::mutex mutex_;
 };
 
 }  // namespace
 
 Image render(const Field& field, const RenderScene& scene, const RenderOptions& options) {
-    check(scene);
-    check(options);
-    Image image{options.width, options.height, options.region, {}};
-    if (image.region.width == 0) image.region = {0, 0, options.width, options.height};
-    const PixelRegion& region = image.region;
-    const std::size_t pixels = static_cast<std::size_t>(region.width) * static_cast<std::size_t>(region.height);
-    image.rgba.resize(4 * pixels);
+  check(scene);
+  check(options);
+  Image image{options.width, options.height, options.region, {}};
+  if (image.region.width == 0) image.region = {0, 0, options.width, options.height};
+  const PixelRegion& region = image.region;
+  const std::size_t pixels = static_cast<std::size_t>(region.width) * static_cast<std::size_t>(region.height);
+  image.rgba.resize(4 * pixels);
 
-    const Tracer tracer(field, options.progress);
-    const TileRenderer renderer(tracer, scene, options);
-    SharedProgress progress(options.progress, pixels);
-    const tbb::blocked_range2d<int> tiles(0, (region.height + kTileSize - 1) / kTileSize, 1, 0,
-                                          (region.width + kTileSize - 1) / kTileSize, 1);
-    tbb::parallel_for(
-        tiles,
-        [&](const tbb::blocked_range2d<int>& range) {
-            for (int row = range.rows().begin(); row < range.rows().end(); ++row) {
-                for (int column = range.cols().begin(); column < range.cols().end(); ++column) {
-                    const int x = column * kTileSize, y = row * kTileSize;
-                    const PixelRegion tile{region.x + x, region.y + y, std::min(kTileSize, region.width - x),
-                                           std::min(kTileSize, region.height - y)};
-                    renderer.render(tile, image);
-                    progress.add(static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height));
-                }
-            }
-        },
-        tbb::simple_partitioner());
-    return image;
+  const Tracer tracer(field, options.progress);
+  const TileRenderer renderer(tracer, scene, options);
+  SharedProgress progress(options.progress, pixels);
+  const tbb::blocked_range2d<int> tiles(0, (region.height + kTileSize - 1) / kTileSize, 1, 0,
+                                        (region.width + kTileSize - 1) / kTileSize, 1);
+  tbb::parallel_for(
+      tiles,
+      [&](const tbb::blocked_range2d<int>& range) {
+        for (int row = range.rows().begin(); row < range.rows().end(); ++row) {
+          for (int column = range.cols().begin(); column < range.cols().end(); ++column) {
+            const int x = column * kTileSize, y = row * kTileSize;
+            const PixelRegion tile{region.x + x, region.y + y, std::min(kTileSize, region.width - x),
+                                   std::min(kTileSize, region.height - y)};
+            renderer.render(tile, image);
+            progress.add(static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height));
+          }
+        }
+      },
+      tbb::simple_partitioner());
+  return image;
 }
 
 }  // namespace barkridge

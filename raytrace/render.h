@@ -13,70 +13,70 @@ namespace barkridge {
 using Color = glm::dvec3;
 
 struct Camera {
-    enum class Projection { kPerspective, kOrthographic };
-    Projection projection = Projection::kPerspective;
-    Vec3 position{0, 0, 5};
-    Vec3 target{0, 0, 0};
-    Vec3 up{0, 1, 0};
-    /// Perspective: full vertical angle of view.
-    double fov_degrees = 35;
-    /// Orthographic: height of the picture in scene units.
-    double height = 2;
+  enum class Projection { kPerspective, kOrthographic };
+  Projection projection = Projection::kPerspective;
+  Vec3 position{0, 0, 5};
+  Vec3 target{0, 0, 0};
+  Vec3 up{0, 1, 0};
+  /// Perspective: full vertical angle of view.
+  double fov_degrees = 35;
+  /// Orthographic: height of the picture in scene units.
+  double height = 2;
 };
 
 /// A distant light. The direction points from the scene to the sun.
 struct Sun {
-    Vec3 direction{0.6, 0.65, 0.45};
-    Color color{1.0, 0.94, 0.83};
-    /// Irradiance on a surface that faces the sun, divided by pi: a white Lambert surface then has this radiance.
-    double intensity = 2.0;
-    /// Full angle the sun subtends; 0 gives hard shadows.
-    double angle_degrees = 0.53;
+  Vec3 direction{0.6, 0.65, 0.45};
+  Color color{1.0, 0.94, 0.83};
+  /// Irradiance on a surface that faces the sun, divided by pi: a white Lambert surface then has this radiance.
+  double intensity = 2.0;
+  /// Full angle the sun subtends; 0 gives hard shadows.
+  double angle_degrees = 0.53;
 };
 
 /// A sky dome, from `horizon` to `zenith` by the direction's height, and `horizon` below; it lights, and it is seen
 /// behind everything. With intensity 0 there is none, and the picture is transparent where nothing is hit.
 struct Sky {
-    Color zenith{0.24, 0.41, 0.78};
-    Color horizon{0.78, 0.86, 0.95};
-    double intensity = 0.9;
+  Color zenith{0.24, 0.41, 0.78};
+  Color horizon{0.78, 0.86, 0.95};
+  double intensity = 0.9;
 };
 
 /// The horizontal plane y = height. Far away, against the scene's size, it fades into the horizon.
 struct Ground {
-    bool enabled = true;
-    double height = 0;
-    Color color{0.27, 0.25, 0.18};
+  bool enabled = true;
+  double height = 0;
+  Color color{0.25, 0.24, 0.16};
 };
 
 /// Lambert plus a rough specular lobe (GGX).
 struct Material {
-    Color color{0.42, 0.36, 0.28};
-    double specular = 0.04;  ///< reflectance at normal incidence, 0 for none
-    double roughness = 0.6;  ///< in (0, 1]
+  Color color{0.38, 0.31, 0.235};
+  double specular = 0.04;  ///< reflectance at normal incidence, 0 for none
+  double roughness = 0.6;  ///< in (0, 1]
 };
 
 struct RenderScene {
-    Camera camera;
-    Sun sun;
-    Sky sky;
-    Ground ground;
-    Material material;
+  Camera camera;
+  Sun sun;
+  Sky sky;
+  Ground ground;
+  Material material;
 };
 
 /// A rectangle of pixels: x to the right, y down from the top.
 struct PixelRegion {
-    int x = 0, y = 0, width = 0, height = 0;
+  int x = 0, y = 0, width = 0, height = 0;
 };
 
 struct RenderOptions {
-    int width = 768, height = 1024;
-    /// Most samples a pixel; they are spent where neighbouring samples differ.
-    int samples_per_pixel = 9;
-    std::uint64_t seed = 0;
-    /// The part to render; zero width means all.
-    PixelRegion region;
-    Progress progress;
+  int width = 768, height = 1024;
+  /// Most samples a pixel; they are spent where neighbouring samples differ.
+  int samples_per_pixel = 9;
+  std::uint64_t seed = 0;
+  /// The part to render; zero width means all.
+  PixelRegion region;
+  Progress progress;
 };
 
 /// Throw `InputError` that names the setting, as in "camera.fov_degrees" or "spp", and its range. `render` calls both.
@@ -86,9 +86,9 @@ void check(const RenderOptions& options);
 /// A picture or a region of one: linear, premultiplied RGBA, rows from the top. Alpha is 1 wherever there is
 /// something to see, the sky included.
 struct Image {
-    int full_width = 0, full_height = 0;
-    PixelRegion region;
-    std::vector<float> rgba;  ///< 4 * region.width * region.height
+  int full_width = 0, full_height = 0;
+  PixelRegion region;
+  std::vector<float> rgba;  ///< 4 * region.width * region.height
 };
 
 /// Renders the solid of `field`. Every pixel is a function of field, scene, seed and its own place in the full picture:

@@ -13,11 +13,11 @@ enum class Dimension { kPixel, kSun, kBounce, kLobe, kBounceSun, kCount };
 
 /// What the samplers of all pixels of a picture share.
 struct SampleLayout {
-    std::uint64_t seed = 0;
-    int pixel_digits = 0;   ///< base-4 digits of a pixel's number
-    int sample_digits = 0;  ///< base-4 digits of a sample's number within its pixel
+  std::uint64_t seed = 0;
+  int pixel_digits = 0;   ///< base-4 digits of a pixel's number
+  int sample_digits = 0;  ///< base-4 digits of a sample's number within its pixel
 
-    SampleLayout(std::uint64_t seed, int full_width, int full_height, int samples_per_pixel);
+  SampleLayout(std::uint64_t seed, int full_width, int full_height, int samples_per_pixel);
 };
 
 /// The numbers of one pixel, as a function of seed, place in the full picture, sample and dimension. Samples are
@@ -27,15 +27,15 @@ struct SampleLayout {
 /// Error"]
 class PixelSampler {
  public:
-    PixelSampler(const SampleLayout& layout, int x, int y);
+  PixelSampler(const SampleLayout& layout, int x, int y);
 
-    /// Two numbers in [0, 1).
-    glm::dvec2 pair(int sample, Dimension dimension) const;
+  /// Two numbers in [0, 1).
+  glm::dvec2 pair(int sample, Dimension dimension) const;
 
  private:
-    std::uint64_t seed_;
-    int sample_digits_;
-    std::array<std::uint64_t, static_cast<std::size_t>(Dimension::kCount)> shuffled_pixel_;
+  std::uint64_t seed_;
+  int sample_digits_;
+  std::array<std::uint64_t, static_cast<std::size_t>(Dimension::kCount)> shuffled_pixel_;
 };
 
 }  // namespace barkridge

@@ -11,9 +11,9 @@ namespace barkridge {
 
 /// A sampled direction of incoming light.
 struct ScatteredDirection {
-    Vec3 direction;
-    /// Scattering function times cosine over the probability density of the direction.
-    Color weight;
+  Vec3 direction;
+  /// Scattering function times cosine over the probability density of the direction.
+  Color weight;
 };
 
 /// Lambert with `material.color`, of which the specular reflectance at normal incidence is taken off, plus an isotropic
@@ -21,22 +21,22 @@ struct ScatteredDirection {
 /// 2007; Heitz 2014] All directions are unit vectors and point away from the surface.
 class Scattering {
  public:
-    explicit Scattering(const Material& material);
+  explicit Scattering(const Material& material);
 
-    const Color& albedo() const { return material_.color; }
+  const Color& albedo() const { return material_.color; }
 
-    /// Scattering function times the cosine of `light`; 0 when `view` or `light` are below the surface.
-    Color evaluate(const Vec3& normal, const Vec3& view, const Vec3& light) const;
+  /// Scattering function times the cosine of `light`; 0 when `view` or `light` are below the surface.
+  Color evaluate(const Vec3& normal, const Vec3& view, const Vec3& light) const;
 
-    /// A direction of incoming light: by the lobe when `choice` is small, by the cosine else, weighted for both. None
-    /// when it would come from below.
-    std::optional<ScatteredDirection> sample(const Vec3& normal, const Vec3& view, const glm::dvec2& u,
-                                             double choice) const;
+  /// A direction of incoming light: by the lobe when `choice` is small, by the cosine else, weighted for both. None
+  /// when it would come from below.
+  std::optional<ScatteredDirection> sample(const Vec3& normal, const Vec3& view, const glm::dvec2& u,
+                                           double choice) const;
 
  private:
-    Material material_;
-    Color diffuse_;  // Lambert's constant
-    double alpha_;
+  Material material_;
+  Color diffuse_;  // Lambert's constant
+  double alpha_;
 };
 
 }  // namespace barkridge

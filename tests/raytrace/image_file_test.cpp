@@ -19,34 +19,34 @@ namespace {
 
 // A directory of its own for a test, gone afterwards.
 struct Folder {
-    fs::path path = fs::temp_directory_path() / ("barkridge-raytrace-" + std::to_string(::getpid()));
-    Folder() { fs::create_directories(path); }
-    ~Folder() { fs::remove_all(path); }
-    std::string file(const std::string& name) const { return (path / name).string(); }
-    std::size_t entries() const {
-        return static_cast<std::size_t>(std::distance(fs::directory_iterator(path), fs::directory_iterator()));
-    }
+  fs::path path = fs::temp_directory_path() / ("barkridge-raytrace-" + std::to_string(::getpid()));
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+  std::string file(const std::string& name) const { return (path / name).string(); }
+  std::size_t entries() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(path), fs::directory_iterator()));
+  }
 };
 
 // Makes every write past `bytes` fail with EFBIG, as a full disk would with ENOSPC.
 struct FileSizeLimit {
-    rlimit old{};
-    explicit FileSizeLimit(rlim_t bytes) {
-        std::signal(SIGXFSZ, SIG_IGN);
-        ::getrlimit(RLIMIT_FSIZE, &old);
-        const rlimit limit{bytes, old.rlim_max};
-        ::setrlimit(RLIMIT_FSIZE, &limit);
-    }
-    ~FileSizeLimit() { ::setrlimit(RLIMIT_FSIZE, &old); }
+  rlimit old{};
+  explicit FileSizeLimit(rlim_t bytes) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    ::getrlimit(RLIMIT_FSIZE, &old);
+    const rlimit limit{bytes, old.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() { ::setrlimit(RLIMIT_FSIZE, &old); }
 };
 
 Image noise(int full_width, int full_height, const PixelRegion& region) {
-    Image image{full_width, full_height, region, {}};
-    image.rgba.resize(4 * static_cast<std::size_t>(region.width * region.height));
-    for (std::size_t i = 0; i < image.rgba.size(); ++i) {
-        image.rgba[i] = i % 4 == 3 ? 1.0f : static_cast<float>(random_unit(i));
-    }
-    return image;
+  Image image{full_width, full_height, region, {}};
+  image.rgba.resize(4 * static_cast<std::size_t>(region.width * region.height));
+  for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+    image.rgba[i] = i % 4 == 3 ? 1.0f : static_cast<float>(random_unit(i));
+  }
+  return image;
 }
 
 const ImageMetadata kMetadata{
@@ -55,79 +55,78 @@ const ImageMetadata kMetadata{
 }  // namespace
 
 TEST_CASE("an EXR holds linear half RGBA with its region and metadata") {
-    const Folder folder;
-    const Image image = noise(60, 40, {10, 20, 33, 17});
-    write_image(image, folder.file("a.EXR"), kMetadata);
-    const auto input = OIIO::ImageInput::open(folder.file("a.EXR"));
-    REQUIRE(input);
-    const OIIO::ImageSpec& spec = input->spec();
-    CHECK(spec.format == OIIO::TypeDesc::HALF);
-    CHECK(spec.channelnames == std::vector<std::string>{"R", "G", "B", "A"});
-    CHECK((spec.x == 10 && spec.y == 20 && spec.width == 33 && spec.height == 17));
-    CHECK((spec.full_width == 60 && spec.full_height == 40 && spec.full_x == 0 && spec.full_y == 0));
-    CHECK(spec.get_string_attribute("barkridge/version") == "1.2.3");
-    CHECK(spec.get_string_attribute("barkridge/scene_sha256") == "abc");
-    CHECK(spec.get_string_attribute("compression") == "zip");
-    CHECK(spec.find_attribute("chromaticities") != nullptr);
-    std::vector<float> pixels(image.rgba.size());
-    REQUIRE(input->read_image(0, 0, 0, 4, OIIO::TypeDesc::FLOAT, pixels.data()));
-    for (std::size_t i = 0; i < pixels.size(); ++i)
-        REQUIRE(std::abs(pixels[i] - image.rgba[i]) <= 5e-4f * image.rgba[i]);
+  const Folder folder;
+  const Image image = noise(60, 40, {10, 20, 33, 17});
+  write_image(image, folder.file("a.EXR"), kMetadata);
+  const auto input = OIIO::ImageInput::open(folder.file("a.EXR"));
+  REQUIRE(input);
+  const OIIO::ImageSpec& spec = input->spec();
+  CHECK(spec.format == OIIO::TypeDesc::HALF);
+  CHECK(spec.channelnames == std::vector<std::string>{"R", "G", "B", "A"});
+  CHECK((spec.x == 10 && spec.y == 20 && spec.width == 33 && spec.height == 17));
+  CHECK((spec.full_width == 60 && spec.full_height == 40 && spec.full_x == 0 && spec.full_y == 0));
+  CHECK(spec.get_string_attribute("barkridge/version") == "1.2.3");
+  CHECK(spec.get_string_attribute("barkridge/scene_sha256") == "abc");
+  CHECK(spec.get_string_attribute("compression") == "zip");
+  CHECK(spec.find_attribute("chromaticities") != nullptr);
+  std::vector<float> pixels(image.rgba.size());
+  REQUIRE(input->read_image(0, 0, 0, 4, OIIO::TypeDesc::FLOAT, pixels.data()));
+  for (std::size_t i = 0; i < pixels.size(); ++i) REQUIRE(std::abs(pixels[i] - image.rgba[i]) <= 5e-4f * image.rgba[i]);
 }
 
 TEST_CASE("a PNG holds 8-bit sRGB with straight alpha and metadata") {
-    const Folder folder;
-    // Linear grey of 0.21586 is 128 in sRGB. The third pixel is half transparent, the fourth wholly.
-    Image image{2, 2, {0, 0, 2, 2}, {0, 1, 0.2158605f, 1, 7, -1, 0.0020f, 1, 0.10793f, 0, 0.5f, 0.5f, 0, 0, 0, 0}};
-    write_image(image, folder.file("a.png"), kMetadata);
-    const auto input = OIIO::ImageInput::open(folder.file("a.png"));
-    REQUIRE(input);
-    const OIIO::ImageSpec& spec = input->spec();
-    CHECK(spec.format == OIIO::TypeDesc::UINT8);
-    CHECK(spec.nchannels == 4);
-    CHECK(spec.get_string_attribute("oiio:ColorSpace") == "sRGB");
-    CHECK(spec.get_string_attribute("barkridge/version") == "1.2.3");
-    CHECK(spec.get_string_attribute("barkridge/seed") == "7");
-    const OIIO::ImageSpec keep = [] {
-        OIIO::ImageSpec config;
-        config.attribute("oiio:UnassociatedAlpha", 1);
-        return config;
-    }();
-    const auto raw = OIIO::ImageInput::open(folder.file("a.png"), &keep);
-    std::vector<std::uint8_t> pixels(16);
-    REQUIRE(raw->read_image(0, 0, 0, 4, OIIO::TypeDesc::UINT8, pixels.data()));
-    CHECK(pixels == std::vector<std::uint8_t>{0, 255, 128, 255, 255, 0, 7, 255, 128, 0, 255, 128, 0, 0, 0, 0});
+  const Folder folder;
+  // Linear grey of 0.21586 is 128 in sRGB. The third pixel is half transparent, the fourth wholly.
+  Image image{2, 2, {0, 0, 2, 2}, {0, 1, 0.2158605f, 1, 7, -1, 0.0020f, 1, 0.10793f, 0, 0.5f, 0.5f, 0, 0, 0, 0}};
+  write_image(image, folder.file("a.png"), kMetadata);
+  const auto input = OIIO::ImageInput::open(folder.file("a.png"));
+  REQUIRE(input);
+  const OIIO::ImageSpec& spec = input->spec();
+  CHECK(spec.format == OIIO::TypeDesc::UINT8);
+  CHECK(spec.nchannels == 4);
+  CHECK(spec.get_string_attribute("oiio:ColorSpace") == "sRGB");
+  CHECK(spec.get_string_attribute("barkridge/version") == "1.2.3");
+  CHECK(spec.get_string_attribute("barkridge/seed") == "7");
+  const OIIO::ImageSpec keep = [] {
+    OIIO::ImageSpec config;
+    config.attribute("oiio:UnassociatedAlpha", 1);
+    return config;
+  }();
+  const auto raw = OIIO::ImageInput::open(folder.file("a.png"), &keep);
+  std::vector<std::uint8_t> pixels(16);
+  REQUIRE(raw->read_image(0, 0, 0, 4, OIIO::TypeDesc::UINT8, pixels.data()));
+  CHECK(pixels == std::vector<std::uint8_t>{0, 255, 128, 255, 255, 0, 7, 255, 128, 0, 255, 128, 0, 0, 0, 0});
 }
 
 TEST_CASE("equal pictures give equal bytes, at any time") {
-    const Folder folder;
-    const Image image = noise(64, 48, {0, 0, 64, 48});
-    for (const std::string name : {"a.exr", "a.png"}) write_image(image, folder.file(name), kMetadata);
-    ::sleep(1);  // a time stamp would show
-    for (const std::string name : {"b.exr", "b.png"}) write_image(image, folder.file(name), kMetadata);
-    CHECK(read_file(folder.file("a.exr")) == read_file(folder.file("b.exr")));
-    CHECK(read_file(folder.file("a.png")) == read_file(folder.file("b.png")));
+  const Folder folder;
+  const Image image = noise(64, 48, {0, 0, 64, 48});
+  for (const std::string name : {"a.exr", "a.png"}) write_image(image, folder.file(name), kMetadata);
+  ::sleep(1);  // a time stamp would show
+  for (const std::string name : {"b.exr", "b.png"}) write_image(image, folder.file(name), kMetadata);
+  CHECK(read_file(folder.file("a.exr")) == read_file(folder.file("b.exr")));
+  CHECK(read_file(folder.file("a.png")) == read_file(folder.file("b.png")));
 }
 
 TEST_CASE("a full disk is an error that leaves the old picture") {
-    const Folder folder;
-    for (const std::string extension : {".exr", ".png"}) {
-        const std::string path = folder.file("a" + extension);
-        write_image(noise(8, 8, {0, 0, 8, 8}), path);
-        const std::string old = read_file(path);
-        {
-            const FileSizeLimit limit(1 << 16);
-            CHECK_THROWS_AS(write_image(noise(512, 512, {0, 0, 512, 512}), path), IoError);
-        }
-        CHECK(read_file(path) == old);
+  const Folder folder;
+  for (const std::string extension : {".exr", ".png"}) {
+    const std::string path = folder.file("a" + extension);
+    write_image(noise(8, 8, {0, 0, 8, 8}), path);
+    const std::string old = read_file(path);
+    {
+      const FileSizeLimit limit(1 << 16);
+      CHECK_THROWS_AS(write_image(noise(512, 512, {0, 0, 512, 512}), path), IoError);
     }
-    CHECK(folder.entries() == 2);
+    CHECK(read_file(path) == old);
+  }
+  CHECK(folder.entries() == 2);
 }
 
 TEST_CASE("unknown formats and unwritable places are refused") {
-    CHECK_THROWS_AS(check_image_path("a.jpg"), InputError);
-    CHECK_THROWS_AS(check_image_path("png"), InputError);
-    CHECK_THROWS_WITH(check_image_path("a.tif"), Catch::Contains(".exr") && Catch::Contains(".png"));
-    CHECK_NOTHROW(check_image_path("dir.x/a.PNG"));
-    CHECK_THROWS_AS(write_image(noise(2, 2, {0, 0, 2, 2}), "/nowhere/at/all.png"), IoError);
+  CHECK_THROWS_AS(check_image_path("a.jpg"), InputError);
+  CHECK_THROWS_AS(check_image_path("png"), InputError);
+  CHECK_THROWS_WITH(check_image_path("a.tif"), Catch::Contains(".exr") && Catch::Contains(".png"));
+  CHECK_NOTHROW(check_image_path("dir.x/a.PNG"));
+  CHECK_THROWS_AS(write_image(noise(2, 2, {0, 0, 2, 2}), "/nowhere/at/all.png"), IoError);
 }
