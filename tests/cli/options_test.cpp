@@ -1,20 +1,14 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.h"
-#include "cli/command_line.h"
 #include "cli/option_values.h"
+#include "tests/cli/in_process.h"
 #include "tests/scene/scratch_folder.h"
 
 using namespace barkridge;
 using Catch::Matchers::Contains;
 
 namespace {
-
-std::variant<cli::Command, cli::HelpText> parse(const std::vector<std::string>& arguments) {
-  std::vector<const char*> argv = {"barkridge"};
-  for (const std::string& argument : arguments) argv.push_back(argument.c_str());
-  return cli::parse_command_line(static_cast<int>(argv.size()), argv.data());
-}
 
 template <typename Verb>
 Verb parse_as(const std::vector<std::string>& arguments) {
@@ -82,12 +76,8 @@ TEST_CASE("wrong values of options name the option and what it takes") {
     if (verb != "grow") arguments.insert(arguments.end(), {"-o", folder.path(verb == "render" ? "a.png" : "a.ply")});
     arguments.insert(arguments.end(), options.begin(), options.end());
     CAPTURE(options);
-    const auto work = [&] {
-      std::visit([](const auto& verb_arguments) { run(verb_arguments); },
-                 std::get<cli::Command>(parse(arguments)).verb);
-    };
-    CHECK_THROWS_AS(work(), InputError);
-    CHECK_THROWS_WITH(work(), Contains(message));
+    CHECK_THROWS_AS(run_in_process(arguments), InputError);
+    CHECK_THROWS_WITH(run_in_process(arguments), Contains(message));
   };
   check_option("render", {"--size", "640"}, "--size 640: expected width and height in pixels, like 768x1024");
   check_option("render", {"--size", "0x10"}, "--size 0x10: image.width: expected an integer from 1 to 65536, not 0");
