@@ -1,7 +1,10 @@
 #include "scene/camera_fit.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
+
+#include "scene/solid_bounds.h"
 
 namespace barkridge {
 
@@ -25,21 +28,28 @@ Frame frame_of(const Vec3& back, const Vec3& up, double azimuth_degrees) {
   return {right, glm::cross(back, right), back};
 }
 
-// How far from `target` the camera must stand, and how high an orthographic picture must be, to show the whole box.
-struct Extent {
-  double distance = 0, height = 0;
-};
-Extent needed_extent(const Box& box, const Vec3& target, const Frame& frame, double tangent, double aspect) {
-  Extent extent;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 p =
-        Vec3(corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y, corner & 4 ? box.hi.z : box.lo.z) -
-        target;
-    const double y = std::max(std::abs(glm::dot(p, frame.up)), std::abs(glm::dot(p, frame.right)) / aspect);
-    extent.distance = std::max(extent.distance, glm::dot(p, frame.back) + kMargin * y / tangent);
-    extent.height = std::max(extent.height, 2 * kMargin * y);
+// How far the solid reaches from `target` in a direction; a ball of radius 1 around it where there is none.
+double reach_from(const Field& field, const Vec3& target, const Vec3& direction) {
+  const std::optional<double> reach = solid_reach(field, direction);
+  return reach ? *reach - glm::dot(target, direction) : glm::length(direction);
+}
+
+// The distance from `target` at which the solid lies before all four planes that go through the camera and the
+// picture's edges.
+double needed_distance(const Field& field, const Vec3& target, const Frame& frame, double tangent, double aspect) {
+  double distance = 0;
+  for (const Vec3& side : {frame.up, -frame.up, frame.right / aspect, -frame.right / aspect}) {
+    distance = std::max(distance, reach_from(field, target, frame.back + side * (kMargin / tangent)));
   }
-  return extent;
+  return distance;
+}
+
+double needed_height(const Field& field, const Vec3& target, const Frame& frame, double aspect) {
+  double half_height = 0;
+  for (const Vec3& side : {frame.up, -frame.up, frame.right / aspect, -frame.right / aspect}) {
+    half_height = std::max(half_height, kMargin * reach_from(field, target, side));
+  }
+  return 2 * half_height;
 }
 
 }  // namespace
@@ -49,24 +59,35 @@ Vec3 direction_of_angles(double azimuth_degrees, double elevation_degrees) {
   return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation), std::cos(elevation) * std::cos(azimuth)};
 }
 
-Camera fit_camera(const SceneCamera& camera, const Box& model, double aspect) {
-  const Box box = model.empty() ? Box{Vec3(-1), Vec3(1)} : model;
+Camera fit_camera(const SceneCamera& camera, const Field& field, double aspect) {
   Camera fitted;
   fitted.projection = camera.projection;
   fitted.fov_degrees = camera.fov_degrees;
-  fitted.target = camera.target.value_or(box.center());
-  const Vec3 back = camera.position ? glm::normalize(*camera.position - fitted.target)
-                                    : direction_of_angles(camera.azimuth_degrees, camera.elevation_degrees);
+  if (camera.target) {
+    fitted.target = *camera.target;
+  } else {
+    const Box solid = solid_bounds(field);
+    fitted.target = solid.empty() ? Vec3(0) : solid.center();
+  }
+  const bool placed = camera.position && *camera.position != fitted.target;
+  const Vec3 back = placed ? glm::normalize(*camera.position - fitted.target)
+                           : direction_of_angles(camera.azimuth_degrees, camera.elevation_degrees);
   const Frame frame = frame_of(back, camera.up, camera.azimuth_degrees);
-  const double tangent = std::tan(glm::radians(camera.fov_degrees) / 2);
-  const Extent extent = needed_extent(box, fitted.target, frame, tangent, aspect);
-  const bool orthographic = camera.projection == Camera::Projection::kOrthographic;
-  const double distance = orthographic ? glm::length(fitted.target - box.center()) + box.diagonal() : extent.distance;
-  fitted.position = camera.position.value_or(fitted.target + back * distance);
-  // A longer lens, not a nearer camera, so that no zoom takes the camera into the model.
-  if (!camera.position) fitted.fov_degrees = glm::degrees(2 * std::atan(tangent / camera.zoom));
-  fitted.height = camera.height.value_or(extent.height / camera.zoom);
   fitted.up = frame.up;
+  if (camera.projection == Camera::Projection::kOrthographic) {
+    // Anywhere outside of the model will do.
+    const Box support = field.support();
+    const double outside = support.empty() ? 2 : support.diagonal() + glm::length(support.center() - fitted.target);
+    fitted.position = camera.position.value_or(fitted.target + back * outside);
+    fitted.height = camera.height ? *camera.height : needed_height(field, fitted.target, frame, aspect) / camera.zoom;
+  } else if (camera.position) {
+    fitted.position = *camera.position;
+  } else {
+    const double tangent = std::tan(glm::radians(camera.fov_degrees) / 2);
+    fitted.position = fitted.target + back * needed_distance(field, fitted.target, frame, tangent, aspect);
+    // A longer lens, not a nearer camera, so that no zoom takes the camera into the model.
+    fitted.fov_degrees = glm::degrees(2 * std::atan(tangent / camera.zoom));
+  }
   return fitted;
 }
 

@@ -13,7 +13,6 @@
 #include "raytrace/image_file.h"
 #include "scene/camera_fit.h"
 #include "scene/scene_hash.h"
-#include "scene/solid_bounds.h"
 
 namespace barkridge {
 
@@ -151,7 +150,7 @@ double cell_size(const Scene& scene, const Model& model) {
 RenderScene make_render_scene(const Scene& scene, const Field& field) {
   const double aspect = static_cast<double>(scene.image.width) / scene.image.height;
   RenderScene look;
-  look.camera = fit_camera(scene.camera, solid_bounds(field), aspect);
+  look.camera = fit_camera(scene.camera, field, aspect);
   look.sun.direction =
       scene.sun.direction.value_or(direction_of_angles(scene.sun.azimuth_degrees, scene.sun.elevation_degrees));
   look.sun.color = scene.sun.color;

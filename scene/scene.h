@@ -48,8 +48,8 @@ struct SceneCamera {
 /// A sun given by a direction, or by two angles that count like the camera's.
 struct SceneSun {
   std::optional<Vec3> direction;
-  double azimuth_degrees = 40;
-  double elevation_degrees = 42;
+  double azimuth_degrees = 50;
+  double elevation_degrees = 41;
   Color color = Sun{}.color;
   double intensity = Sun{}.intensity;
   double angle_degrees = Sun{}.angle_degrees;

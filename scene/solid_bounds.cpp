@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <queue>
-#include <vector>
 
 namespace barkridge {
 
@@ -10,14 +9,16 @@ namespace {
 
 // A box that may hold solid, with a field that is as good as the whole one inside of it.
 struct Candidate {
-  double reach = 0;  // how far it extends to the side that is sought
+  double reach;
   Box box;
   std::shared_ptr<const Field> field;
 
   bool operator<(const Candidate& other) const { return reach < other.reach; }
 };
 
-double reach_of(const Box& box, int axis, bool upper) { return upper ? box.hi[axis] : -box.lo[axis]; }
+double reach_of(const Box& box, const Vec3& direction) {
+  return glm::dot(box.center(), direction) + glm::dot(box.half_extent(), glm::abs(direction));
+}
 
 Box octant(const Box& box, int index) {
   Box part = box;
@@ -28,41 +29,37 @@ Box octant(const Box& box, int index) {
   return part;
 }
 
-// Best first: the first box that is small enough and still may hold solid reaches as far as any. `solid` tells by
-// `root` whether there is any.
-bool furthest_reach(const Candidate& root, int axis, bool upper, double smallest, double& reach) {
-  std::priority_queue<Candidate> queue;
-  queue.push(root);
-  while (!queue.empty()) {
-    const Candidate top = queue.top();
-    queue.pop();
-    if (top.box.hi[axis] - top.box.lo[axis] <= smallest) {
-      reach = top.reach;
-      return true;
-    }
-    const std::shared_ptr<const Field> field = top.field->restricted(top.box);
-    for (int i = 0; i < 8; ++i) {
-      const Box part = octant(top.box, i);
-      if (field->bounds(part).value.hi >= kIsoValue) queue.push({reach_of(part, axis, upper), part, field});
-    }
-  }
-  return false;
-}
-
 }  // namespace
 
-Box solid_bounds(const Field& field) {
+std::optional<double> solid_reach(const Field& field, const Vec3& direction) {
   const Box support = field.support();
-  if (support.empty()) return {};
-  const double smallest = support.diagonal() / 1024;
-  const std::shared_ptr<const Field> whole(&field, [](const Field*) {});
+  if (support.empty()) return std::nullopt;
+  const double smallest = support.diagonal() / 2048;
+  // Best first: the first box that is small enough and may hold solid reaches as far as any.
+  std::priority_queue<Candidate> queue;
+  queue.push({reach_of(support, direction), support, std::shared_ptr<const Field>(&field, [](const Field*) {})});
+  while (!queue.empty()) {
+    const Candidate furthest = queue.top();
+    queue.pop();
+    if (furthest.box.diagonal() <= smallest) return furthest.reach;
+    const std::shared_ptr<const Field> local = furthest.field->restricted(furthest.box);
+    for (int i = 0; i < 8; ++i) {
+      const Box part = octant(furthest.box, i);
+      if (local->bounds(part).value.hi >= kIsoValue) queue.push({reach_of(part, direction), part, local});
+    }
+  }
+  return std::nullopt;
+}
+
+Box solid_bounds(const Field& field) {
   Box bounds;
   for (int axis = 0; axis < 3; ++axis) {
-    double lo = 0, hi = 0;
-    if (!furthest_reach({0, support, whole}, axis, false, smallest, lo)) return {};
-    if (!furthest_reach({0, support, whole}, axis, true, smallest, hi)) return {};
-    bounds.lo[axis] = -lo;
-    bounds.hi[axis] = hi;
+    Vec3 direction(0);
+    direction[axis] = 1;
+    const std::optional<double> hi = solid_reach(field, direction), lo = solid_reach(field, -direction);
+    if (!hi || !lo) return {};
+    bounds.lo[axis] = -*lo;
+    bounds.hi[axis] = *hi;
   }
   return bounds;
 }

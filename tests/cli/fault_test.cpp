@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <thread>
 
 #include "tests/cli/run_program.h"
@@ -31,6 +32,18 @@ bool eventually(Condition condition) {
   for (int i = 0; i < 10000; ++i) {
     if (condition()) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return false;
+}
+
+// Whether the process has become the program and come to the point where it catches the signal.
+bool catches(int process, int signal) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  bool is_program = false;
+  for (std::string line; std::getline(status, line);) {
+    if (line == "Name:\tbarkridge") is_program = true;
+    if (line.starts_with("SigCgt:"))
+      return is_program && (std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1) != 0;
   }
   return false;
 }
@@ -117,7 +130,8 @@ TEST_CASE("signals end the program with their status, leave the old file and no 
   const std::size_t entries = folder.entries();
   for (const auto& [signal, status] : {std::pair(SIGINT, 130), std::pair(SIGTERM, 143)}) {
     const int process = start_program({"render", scene, "-o", target, "--size", "8192x8192", "--spp", "4096"});
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    REQUIRE(eventually([process, caught = signal] { return catches(process, caught); }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
     ::kill(process, signal);
     CHECK(wait_for(process) == status);
     CHECK(read_file(target) == "old");

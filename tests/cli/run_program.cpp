@@ -23,6 +23,7 @@ struct Pipe {
 };
 
 [[noreturn]] void become_program(const std::vector<std::string>& arguments) {
+  for (const int signal : {SIGINT, SIGTERM, SIGPIPE}) std::signal(signal, SIG_DFL);
   std::vector<char*> argv = {const_cast<char*>("barkridge")};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
@@ -91,7 +92,6 @@ Finished run_program(const std::vector<std::string>& arguments, const RunOptions
     ::dup2(in.read_end, 0);
     ::dup2(out.write_end, 1);
     ::dup2(err.write_end, 2);
-    std::signal(SIGPIPE, SIG_DFL);
     if (options.before_start) options.before_start();
     become_program(arguments);
   }

@@ -1,5 +1,7 @@
 #include "scene/scene_hash.h"
 
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -31,7 +33,8 @@ TEST_CASE("names, comments, order and defaults that are written out do not chang
   const ScratchFolder folder;
   const std::string hash = hash_of(folder.write("a.skel", kTable));
   CHECK(hash_of(folder.write("b.skel", std::string(kTable) + "# a comment\n\n")) == hash);
-  CHECK(hash_of(folder.write("a.toml", "# look\n[sky]\nintensity = 1\n[model]\nskeleton = 'b.skel'\n")) == hash);
+  CHECK(hash_of(folder.write("a.toml", fmt::format("# look\n[sky]\nintensity = {}\n[model]\nskeleton = 'b.skel'\n",
+                                                   Sky{}.intensity))) == hash);
   const std::string tree = hash_of(folder.write("tree.toml", "model.tree = 'cone(tip_radius = 0.5)'"));
   CHECK(hash_of(folder.write("tree2.toml", "model.tree = '''\n# a cone\ncone(tip_radius = 0.50)'''")) == tree);
 }

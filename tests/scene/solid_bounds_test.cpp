@@ -38,6 +38,23 @@ TEST_CASE("the bounds of distant parts unite") {
   check_bounds(tree, {{-6, -1, -1}, {9, 5, 4}});
 }
 
+TEST_CASE("a solid's reach in any direction is that of its outermost ball") {
+  BlobTree tree;
+  const NodeId a = tree.add(Cone{{-5, 0, 0}, {-5, 0, 0}, 1, 1});
+  const NodeId b = tree.add(Cone{{7, 1, 2}, {7, 1, 2}, 2, 2});
+  tree.add(Union{}, {a, b});
+  const std::shared_ptr<const Field> field = compile(tree);
+  for (const Vec3& direction : {Vec3(1, 1, 1), Vec3(-2, 0.5, 0.1), Vec3(0, -3, 0.2)}) {
+    const double length = glm::length(direction);
+    const double expected =
+        std::max(glm::dot(direction, Vec3(-5, 0, 0)) + length, glm::dot(direction, Vec3(7, 1, 2)) + 2 * length);
+    const std::optional<double> reach = solid_reach(*field, direction);
+    REQUIRE(reach);
+    CHECK(*reach >= expected);
+    CHECK(*reach <= expected + length * field->support().diagonal() / 1000);
+  }
+}
+
 TEST_CASE("a field without a solid has empty bounds") {
   CHECK(solid_bounds(*compile(BlobTree{})).empty());
   BlobTree hollow;
