@@ -18,7 +18,7 @@ namespace barkridge {
 
 namespace {
 
-constexpr double kCellsPerThinnestRadius = 0.75;
+constexpr double kCellsPerThinnestRadius = 0.5;
 
 // Turtle and derivation know modules but not where the model stands: their errors get its name.
 template <typename Work>

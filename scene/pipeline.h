@@ -63,7 +63,7 @@ Model make_model(const Scene& scene, Skeleton skeleton);
 /// the most; 0 for an empty model.
 double thinnest_radius(const Model& model);
 
-/// The scene's cell size, or 0.75 times the thinnest radius. Throws `InputError` for an empty model without one.
+/// The scene's cell size, or half the thinnest radius. Throws `InputError` for an empty model without one.
 double cell_size(const Scene& scene, const Model& model);
 
 /// The look of the scene, with everything filled in that it leaves to the program, for the solid of `field`.

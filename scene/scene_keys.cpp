@@ -312,7 +312,7 @@ void add_surface_keys(Keys& keys) {
       "Total angle by which internodes are bent that leave their parent's direction."));
   keys.push_back(number(
       "mesh.cell_size", above(0), [](auto& s) -> auto& { return s.cell_size; },
-      "Edge length of the sampling cells. Left out, 0.75 times the thinnest branch's radius."));
+      "Edge length of the sampling cells. Left out, half the thinnest branch's radius."));
 }
 
 void add_camera_keys(Keys& keys) {

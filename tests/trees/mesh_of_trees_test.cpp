@@ -83,7 +83,7 @@ TEST_CASE("random trees of both junction kinds become one closed manifold each, 
   check_trees(0, 200, 14);
 }
 
-TEST_CASE("larger random trees become one closed manifold each", "[long]") { check_trees(5000, 200, 60); }
+TEST_CASE("larger random trees become one closed manifold each", "[long]") { check_trees(5000, 30, 40); }
 
 TEST_CASE("a tree's mesh is the same to the bit on one thread and on two") {
   const Skeleton skeleton = random_skeleton(3, 30);
