@@ -1,5 +1,6 @@
 #include "mesh/write.h"
 
+#include "cli/machine_memory.h"
 #include "cli/output_check.h"
 #include "cli/progress_bar.h"
 #include "cli/verbs.h"
@@ -8,6 +9,13 @@
 #include "scene/pipeline.h"
 
 namespace barkridge::cli {
+
+namespace {
+
+// While a mesh is made and written.
+constexpr std::size_t kBytesPerTriangle = 128;
+
+}  // namespace
 
 void run(const MeshArguments& arguments) {
   mesh_format(arguments.output);
@@ -18,6 +26,7 @@ void run(const MeshArguments& arguments) {
   const Model model = make_model(scene, {bar.stage("growing"), warn});
   PolygonizeOptions options;
   options.cell_size = cell_size(scene, model);
+  options.max_triangles = scene.max_triangles.value_or(machine_memory() / kBytesPerTriangle);
   options.progress = bar.stage("meshing");
   const Mesh mesh = polygonize(*compile(model.tree), options);
   write_surface(mesh, scene, model, arguments.output);

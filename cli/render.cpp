@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
+
 #include "base/error.h"
+#include "cli/machine_memory.h"
 #include "cli/output_check.h"
 #include "cli/progress_bar.h"
 #include "cli/verbs.h"
@@ -25,19 +28,34 @@ void check_region(const RenderArguments& arguments, const RenderOptions& picture
   }
 }
 
+// A picture that the memory cannot hold would be killed by the system after hours, without a word.
+void check_memory(const RenderOptions& picture) {
+  constexpr double kBytesPerPixel = 48;
+  const bool whole = picture.region.width == 0;
+  const double pixels = static_cast<double>(whole ? picture.width : picture.region.width) *
+                        static_cast<double>(whole ? picture.height : picture.region.height);
+  const double needed = kBytesPerPixel * pixels, present = static_cast<double>(machine_memory());
+  if (needed > present) {
+    throw std::runtime_error(fmt::format(
+        "the picture takes {:.1f} GB of memory, and this machine has {:.1f} GB; render it in parts with --region",
+        needed / 1e9, present / 1e9));
+  }
+}
+
 }  // namespace
 
 void run(const RenderArguments& arguments) {
   check_image_path(arguments.output);
   const Scene scene = load_scene(arguments.path, arguments.overrides);
   check_region(arguments, scene.image);
+  RenderOptions options = scene.image;
+  options.region = arguments.region;
+  check_memory(options);
   check_writable(arguments.output);
 
   ProgressBar bar(arguments.quiet);
   const Model model = make_model(scene, {bar.stage("growing"), warn});
   const std::shared_ptr<const Field> field = compile(model.tree);
-  RenderOptions options = scene.image;
-  options.region = arguments.region;
   options.progress = bar.stage("rendering");
   const Image image = render(*field, make_render_scene(scene, *field), options);
   write_picture(image, scene, model, arguments.output);

@@ -70,6 +70,8 @@ struct Scene {
   RenderOptions image;
   /// Edge length of a mesh's sampling cells; without it `default_cell_size`.
   std::optional<double> cell_size;
+  /// Most triangles of a mesh; without it as many as the machine's memory holds.
+  std::optional<std::size_t> max_triangles;
 };
 
 /// A value for a key of the scene from outside of its file.

@@ -313,6 +313,9 @@ void add_surface_keys(Keys& keys) {
   keys.push_back(number(
       "mesh.cell_size", above(0), [](auto& s) -> auto& { return s.cell_size; },
       "Edge length of the sampling cells. Left out, half the thinnest branch's radius."));
+  keys.push_back(integer(
+      "mesh.max_triangles", 1, kMost, [](auto& s) -> auto& { return s.max_triangles; },
+      "Most triangles. Left out, as many as the machine's memory holds."));
 }
 
 void add_camera_keys(Keys& keys) {

@@ -8,9 +8,9 @@
 
 namespace barkridge {
 
-/// The largest dot(direction, p) over all points p that the field's bounds cannot keep out of the solid, at most 1/1000
-/// of what the support's diagonal gives too large; nothing if there is no solid. Looks only at boxes that may hold the
-/// outermost point.
+/// How far the solid reaches: the largest dot(direction, p) over its points p, as far as the field's bounds can tell,
+/// within about a thousandth of the support's diagonal; nothing if there is no solid. Looks only at boxes that may hold
+/// the outermost point, and at some ten thousand of them at the most.
 std::optional<double> solid_reach(const Field& field, const Vec3& direction);
 
 /// The box of the six reaches along the axes; empty if there is no solid.

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <thread>
 
+#include "cli/machine_memory.h"
 #include "tests/cli/run_program.h"
 #include "tests/scene/scratch_folder.h"
 
@@ -66,10 +67,10 @@ TEST_CASE("results that cannot be written are a failure, whatever the verb") {
     const Finished full = run_program(arguments, with([] { redirect_output_to("/dev/full"); }));
     CHECK(full.status == 1);
     CHECK_THAT(full.err, Contains("barkridge: standard output: No space left on device"));
-    const Finished closed = run_program(arguments, with([] { ::close(1); }));
-    CHECK(closed.status == 1);
-    CHECK_THAT(closed.err, Contains("barkridge: standard output: "));
   }
+  const Finished closed = run_program({"skeleton", scene}, with([] { ::close(1); }));
+  CHECK(closed.status == 1);
+  CHECK_THAT(closed.err, Contains("barkridge: standard output: "));
 }
 
 TEST_CASE("a reader that goes away ends the program without a word") {
@@ -121,6 +122,21 @@ TEST_CASE("a disk that fills up is a failure that leaves the old file and nothin
     CHECK(read_file(arguments[3]) == "old");
     CHECK(folder.entries() == entries);
   }
+}
+
+TEST_CASE("pictures and meshes beyond the machine's memory are refused before they are begun") {
+  const ScratchFolder folder;
+  const std::string scene = folder.write("a.toml", kBall);
+  if (barkridge::cli::machine_memory() < 100'000'000'000) {
+    const Finished picture = run_program({"render", scene, "-o", folder.path("a.png"), "--size", "65536x32768"});
+    CHECK(picture.status == 1);
+    CHECK_THAT(picture.err, Contains("GB of memory") && Contains("--region"));
+  }
+  const Finished mesh =
+      run_program({"mesh", scene, "-o", folder.path("a.ply"), "--cell-size", "0.05", "-D", "mesh.max_triangles=100"});
+  CHECK(mesh.status == 2);
+  CHECK_THAT(mesh.err, Contains("limit of 100"));
+  CHECK(folder.entries() == 1);
 }
 
 TEST_CASE("signals end the program with their status, leave the old file and no litter") {

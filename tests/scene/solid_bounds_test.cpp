@@ -30,6 +30,12 @@ TEST_CASE("the bounds of a ball are its radius around its middle, not its field'
   check_bounds(tree, {{0.5, 1.5, 2.5}, {1.5, 2.5, 3.5}});
 }
 
+TEST_CASE("the bounds of a disc are as good as those of round solids") {
+  BlobTree tree;
+  tree.add(Disc{{0, 0, 0}, {0, 1, 0}, 4, 0.5});
+  check_bounds(tree, {{-4.5, -0.5, -4.5}, {4.5, 0.5, 4.5}});
+}
+
 TEST_CASE("the bounds of distant parts unite") {
   BlobTree tree;
   const NodeId a = tree.add(Cone{{-5, 0, 0}, {-5, 4, 0}, 1, 1});

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <cstddef>
+
+namespace barkridge::cli {
+
+/// Bytes of memory that this machine has in all.
+std::size_t machine_memory();
+
+}  // namespace barkridge::cli
