@@ -13,7 +13,7 @@
 
 #include "polygonize/crease_closing.h"
 #include "polygonize/lattice.h"
-#include "polygonize/small_cavities.h"
+#include "polygonize/unresolved_pieces.h"
 #include "polygonize/stitch.h"
 #include "polygonize/surface_block.h"
 
@@ -145,7 +145,7 @@ Mesh polygonize(const Field& field, const PolygonizeOptions& options) {
         SurfaceSearch search(lattice, options);
         search.visit(blocks_around(lattice, support), field, 1);
         mesh = stitch(search.take_blocks());
-        if (options.close_creases) fill_small_cavities(mesh, options.cell_size);
+        if (options.close_creases) remove_unresolved_pieces(mesh, options.cell_size);
     }
     report(options.progress, 1);
     return mesh;

@@ -13,9 +13,9 @@ struct PolygonizeOptions {
     double cell_size = 0;
     /// Most triangles; 0 means as many as 31-bit vertex indices allow.
     std::size_t max_triangles = 0;
-    /// Whether creases are closed at the bottom where they are narrower than a cell, and hollows of about a cell filled, as
-    /// the lattice cannot tell them from the bottoms of creases. Without this, signs at lattice points alone decide, and creases show spurious
-    /// hollows and tunnels.
+    /// Whether creases are closed at the bottom where they are narrower than a cell, and pieces of the surface too small for the
+    /// lattice are left out (polygonize/unresolved_pieces.h). Without this, signs at lattice points alone decide, and creases show
+    /// spurious hollows, specks and tunnels.
     bool close_creases = true;
     Progress progress;
 };

@@ -8,14 +8,14 @@
 using namespace barkridge;
 using Catch::Matchers::Contains;
 
-TEST_CASE("--version says the version") {
+TEST_CASE("the program says its version") {
   const Finished finished = run_program({"--version"});
   CHECK(finished.status == 0);
   CHECK(finished.err.empty());
   CHECK(finished.out == std::string("barkridge ") + version() + "\n");
 }
 
-TEST_CASE("--help lists the verbs, and each verb explains its options") {
+TEST_CASE("help lists the verbs, and each verb explains its options") {
   const Finished all = run_program({"--help"});
   CHECK(all.status == 0);
   CHECK(all.err.empty());
@@ -43,7 +43,7 @@ TEST_CASE("help fits a terminal of 100 columns") {
   }
 }
 
-TEST_CASE("--help-keys lists what -D can set") {
+TEST_CASE("help on keys lists what -D can set") {
   CHECK_THAT(help_of({"--help-keys"}), Contains("junction.kind = \"ridge\"") && Contains("camera.azimuth_degrees"));
 }
 

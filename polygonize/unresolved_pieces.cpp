@@ -1,6 +1,7 @@
-#include "polygonize/small_cavities.h"
+#include "polygonize/unresolved_pieces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "base/geometry.h"
@@ -39,7 +40,7 @@ struct Piece {
 
 }  // namespace
 
-void fill_small_cavities(Mesh& mesh, double cell_size) {
+void remove_unresolved_pieces(Mesh& mesh, double cell_size) {
   const std::vector<std::uint32_t> piece_of = pieces_of(mesh);
   std::vector<std::uint32_t> roots;
   for (std::uint32_t v = 0; v < piece_of.size(); ++v) {
@@ -59,17 +60,19 @@ void fill_small_cavities(Mesh& mesh, double cell_size) {
     piece.volume += glm::dot(a, glm::cross(b, c)) / 6;
     piece.area += glm::length(glm::cross(b - a, c - a)) / 2;
   }
-  const auto is_small_cavity = [&](std::uint32_t vertex) {
+  const Piece* largest = &*std::max_element(pieces.begin(), pieces.end(),
+                                            [](const Piece& a, const Piece& b) { return a.area < b.area; });
+  const auto is_unresolved = [&](std::uint32_t vertex) {
     const Piece& piece = pieces[index_of(vertex)];
-    return piece.volume < 0 && -piece.volume < 0.5 * cell_size * piece.area;
+    return &piece != largest && std::abs(piece.volume) < 0.4 * cell_size * piece.area;
   };
 
-  std::erase_if(mesh.triangles, [&](const auto& triangle) { return is_small_cavity(triangle[0]); });
+  std::erase_if(mesh.triangles, [&](const auto& triangle) { return is_unresolved(triangle[0]); });
   std::vector<std::uint32_t> moved_to(mesh.positions.size());
   std::uint32_t kept = 0;
   for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
     moved_to[v] = kept;
-    if (is_small_cavity(v)) continue;
+    if (is_unresolved(v)) continue;
     mesh.positions[kept] = mesh.positions[v];
     if (!mesh.normals.empty()) mesh.normals[kept] = mesh.normals[v];
     ++kept;

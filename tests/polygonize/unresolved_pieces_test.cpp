@@ -1,4 +1,4 @@
-#include "polygonize/small_cavities.h"
+#include "polygonize/unresolved_pieces.h"
 
 #include <catch2/catch.hpp>
 
@@ -29,7 +29,7 @@ void add_octahedron(Mesh& mesh, const glm::vec3& center, float radius, bool holl
 
 }  // namespace
 
-TEST_CASE("small hollows are filled, large ones and small solids stay") {
+TEST_CASE("pieces too small for the lattice go, larger ones and the largest stay") {
   Mesh mesh;
   // An octahedron of radius r has r / (3 sqrt 3) of volume for each unit of its area.
   add_octahedron(mesh, {0, 0, 0}, 1, true);    // a small hollow
@@ -37,11 +37,13 @@ TEST_CASE("small hollows are filled, large ones and small solids stay") {
   add_octahedron(mesh, {3, 0, 0}, 2, true);    // a larger hollow
   add_octahedron(mesh, {20, 0, 0}, 1, false);  // a speck
   const double volume = examine(mesh).volume;
-  fill_small_cavities(mesh, 0.6);
+  remove_unresolved_pieces(mesh, 0.7);
   const MeshReport report = testing::require_closed_manifold(mesh);
-  CHECK(report.components == 3);
-  CHECK(mesh.positions.size() == 18);
-  CHECK(mesh.normals.size() == 18);
-  // The filled hollow had the volume of an octahedron of radius 1.
-  CHECK(report.volume == Approx(volume + 4.0 / 3));
+  CHECK(report.components == 2);
+  CHECK(mesh.positions.size() == 12);
+  CHECK(mesh.normals.size() == 12);
+  // The filled hollow had the volume that the speck had.
+  CHECK(report.volume == Approx(volume));
+  remove_unresolved_pieces(mesh, 1000);
+  CHECK(examine(mesh).components == 1);
 }
