@@ -66,7 +66,7 @@ N = 5
   REQUIRE(model.skeleton.internodes.size() == 5);
   CHECK(model.skeleton.internodes[4].tip == Vec3(0, 5, 0));
   CHECK(thinnest_radius(model) == Approx(0.1));
-  CHECK(cell_size(scene, model) == Approx(0.075));
+  CHECK(cell_size(scene, model) == Approx(0.05));
 }
 
 TEST_CASE("the thinnest radius follows the scales above a primitive") {
