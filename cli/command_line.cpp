@@ -108,7 +108,7 @@ void add_verbs(CLI::App& app, Written& written) {
   add_output_options(mesh, written,
                      "The mesh; its extension, .ply, .obj or .stl, says the format. It appears whole or not at all");
   add(mesh, "--cell-size", written.cell_size, "H",
-      "Edge length of the sampling cells in scene units (mesh.cell_size); by default 0.75 times the thinnest branch's "
+      "Edge length of the sampling cells in scene units (mesh.cell_size); by default half the thinnest branch's "
       "radius");
 
   CLI::App& grow =

@@ -94,7 +94,7 @@ TEST_CASE("a finer cell makes more triangles, and none given follows the thinnes
     return read_file(folder.path("a.stl")).size();
   };
   CHECK(size({"--cell-size", "0.05"}) > size({"--cell-size", "0.1"}));
-  // 0.75 times the radius of 0.1.
+  // Half the radius of 0.1.
   CHECK(size({}) == size({"--cell-size", "0.05"}));
   CHECK(size({"-D", "mesh.cell_size=0.1"}) == size({"--cell-size", "0.1"}));
 }
