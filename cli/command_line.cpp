@@ -57,8 +57,8 @@ std::string footer(const std::string& text) { return wrapped(text + '\n' + kExit
 
 // The options of a verb as the user wrote them, before they mean anything.
 struct Written {
-  std::string scene, output, size, region, points, steps, seed, samples, cell_size, max_modules, max_memory;
-  std::vector<std::string> definitions;
+  std::string scene, size, region, points, steps, seed, samples, cell_size, max_modules, max_memory;
+  std::vector<std::string> definitions, outputs;
   int threads = 0;
   bool quiet = false, json = false;
 };
@@ -86,7 +86,7 @@ CLI::App& add_verb(CLI::App& app, Written& written, const char* name, const char
 }
 
 void add_output_options(CLI::App& verb, Written& written, const char* output_text) {
-  add(verb, "-o,--output", written.output, "FILE", output_text)->required();
+  add(verb, "-o,--output", written.outputs, "FILE", output_text)->required()->allow_extra_args(false);
   add(verb, "-t,--threads", written.threads, "N",
       "Threads to use; 0, the default, means all. The result is the same for any number")
       ->check(CLI::Range(0, 1024).description(""));
@@ -96,7 +96,8 @@ void add_verbs(CLI::App& app, Written& written) {
   CLI::App& render = add_verb(app, written, "render", "Renders a picture to a linear half-float EXR or an sRGB PNG.",
                               "Example: barkridge render poplar.toml -o poplar.exr --size 1536x2048 --spp 16");
   add_output_options(render, written,
-                     "The picture; its extension, .exr or .png, says the format. It appears whole or not at all");
+                     "The picture; its extension, .exr or .png, says the format. It appears whole or not at all. "
+                     "May be given more than once");
   add(render, "--size", written.size, "WxH", "Size in pixels (image.width, image.height)");
   add(render, "--spp,--samples", written.samples, "N", "Most samples a pixel (image.samples_per_pixel)");
   add(render, "--seed", written.seed, "N", "Seed of the picture's random numbers (image.seed)");
@@ -106,7 +107,8 @@ void add_verbs(CLI::App& app, Written& written) {
   CLI::App& mesh = add_verb(app, written, "mesh", "Makes a closed, manifold triangle mesh of the surface.",
                             "Example: barkridge mesh poplar.toml -o poplar.ply --cell-size 0.01");
   add_output_options(mesh, written,
-                     "The mesh; its extension, .ply, .obj or .stl, says the format. It appears whole or not at all");
+                     "The mesh; its extension, .ply, .obj or .stl, says the format. It appears whole or not at all. "
+                     "May be given more than once");
   add(mesh, "--cell-size", written.cell_size, "H",
       "Edge length of the sampling cells in scene units (mesh.cell_size); by default half the thinnest branch's "
       "radius");
@@ -156,7 +158,7 @@ void interpret_scene_options(const Written& written, SceneArguments& arguments) 
 Verb interpret_render(const Written& written) {
   RenderArguments arguments;
   interpret_scene_options(written, arguments);
-  arguments.output = written.output;
+  arguments.outputs = written.outputs;
   if (!written.size.empty()) {
     const std::string origin = "--size " + written.size;
     const auto size = integers_between(written.size, "x");
@@ -182,7 +184,7 @@ Verb interpret_verb(const std::string& name, const Written& written) {
   if (name == "mesh") {
     MeshArguments arguments;
     interpret_scene_options(written, arguments);
-    arguments.output = written.output;
+    arguments.outputs = written.outputs;
     add_override(arguments, "--cell-size", "mesh.cell_size", written.cell_size);
     return arguments;
   }

@@ -18,9 +18,9 @@ constexpr std::size_t kBytesPerTriangle = 128;
 }  // namespace
 
 void run(const MeshArguments& arguments) {
-  mesh_format(arguments.output);
+  for (const std::string& output : arguments.outputs) mesh_format(output);
   const Scene scene = load_scene(arguments.path, arguments.overrides);
-  check_writable(arguments.output);
+  for (const std::string& output : arguments.outputs) check_writable(output);
 
   ProgressBar bar(arguments.quiet);
   const Model model = make_model(scene, {bar.stage("growing"), warn});
@@ -29,7 +29,7 @@ void run(const MeshArguments& arguments) {
   options.max_triangles = scene.max_triangles.value_or(machine_memory() / kBytesPerTriangle);
   options.progress = bar.stage("meshing");
   const Mesh mesh = polygonize(*compile(model.tree), options);
-  write_surface(mesh, scene, model, arguments.output);
+  for (const std::string& output : arguments.outputs) write_surface(mesh, scene, model, output);
 }
 
 }  // namespace barkridge::cli

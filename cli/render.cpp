@@ -45,20 +45,20 @@ void check_memory(const RenderOptions& picture) {
 }  // namespace
 
 void run(const RenderArguments& arguments) {
-  check_image_path(arguments.output);
+  for (const std::string& output : arguments.outputs) check_image_path(output);
   const Scene scene = load_scene(arguments.path, arguments.overrides);
   check_region(arguments, scene.image);
   RenderOptions options = scene.image;
   options.region = arguments.region;
   check_memory(options);
-  check_writable(arguments.output);
+  for (const std::string& output : arguments.outputs) check_writable(output);
 
   ProgressBar bar(arguments.quiet);
   const Model model = make_model(scene, {bar.stage("growing"), warn});
   const std::shared_ptr<const Field> field = compile(model.tree);
   options.progress = bar.stage("rendering");
   const Image image = render(*field, make_render_scene(scene, *field), options);
-  write_picture(image, scene, model, arguments.output);
+  for (const std::string& output : arguments.outputs) write_picture(image, scene, model, output);
 }
 
 }  // namespace barkridge::cli

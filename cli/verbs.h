@@ -18,12 +18,12 @@ struct SceneArguments {
 };
 
 struct RenderArguments : SceneArguments {
-  std::string output;
+  std::vector<std::string> outputs;
   PixelRegion region;
   std::string region_origin;  ///< the region as the user wrote it
 };
 struct MeshArguments : SceneArguments {
-  std::string output;
+  std::vector<std::string> outputs;
 };
 struct GrowArguments : SceneArguments {};
 struct SkeletonArguments : SceneArguments {};
