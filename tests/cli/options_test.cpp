@@ -20,7 +20,7 @@ Verb parse_as(const std::vector<std::string>& arguments) {
 TEST_CASE("options arrive where they belong") {
   const auto render = parse_as<cli::RenderArguments>({"render", "a.skel", "-o", "a.png", "--region", "3x4+5+6", "-q"});
   CHECK(render.path == "a.skel");
-  CHECK(render.output == "a.png");
+  CHECK(render.outputs == std::vector<std::string>{"a.png"});
   CHECK(render.region.width == 3);
   CHECK(render.region.height == 4);
   CHECK(render.region.x == 5);

@@ -45,6 +45,17 @@ TEST_CASE("pictures are the same bytes for one thread and for two") {
   CHECK(read_file(folder.path("one.png")).substr(0, 8) == "\x89PNG\r\n\x1a\n");
 }
 
+TEST_CASE("several outputs of one run are the same as one a run") {
+  const ScratchFolder folder;
+  const std::string scene = folder.write("a.skel", kFork);
+  render(scene, folder.path("a.exr"));
+  render(scene, folder.path("b.exr"), {"-o", folder.path("b.png")});
+  CHECK(read_file(folder.path("a.exr")) == read_file(folder.path("b.exr")));
+  succeed({"mesh", scene, "-o", folder.path("a.ply"), "-o", folder.path("a.obj"), "--cell-size", "0.1"});
+  CHECK(read_file(folder.path("a.ply")).substr(0, 4) == "ply\n");
+  CHECK(read_file(folder.path("a.obj")).find("\nf ") != std::string::npos);
+}
+
 TEST_CASE("a picture's header has version, scene hash and seed, and not its own name") {
   const ScratchFolder folder;
   const std::string scene = folder.write("secret.skel", kFork);
