@@ -9,15 +9,15 @@
 namespace barkridge {
 
 enum class MeshFormat {
-    obj,  ///< Wavefront OBJ: text, shortest decimals that read back to the same floats
-    ply,  ///< PLY, binary little-endian
-    stl,  ///< STL, binary: loose triangles, each with its own normal; no comment, no shared vertices
+  obj,  ///< Wavefront OBJ: text, shortest decimals that read back to the same floats
+  ply,  ///< PLY, binary little-endian
+  stl,  ///< STL, binary: loose triangles, each with its own normal; no comment, no shared vertices
 };
 
 struct MeshWriteOptions {
-    /// Put into the head of OBJ and PLY files, for instance the program's version and the scene's hash. May have
-    /// several lines.
-    std::string comment;
+  /// Put into the head of OBJ and PLY files, for instance the program's version and the scene's hash. May have
+  /// several lines.
+  std::string comment;
 };
 
 /// The format that a path's extension (.obj, .ply, .stl, in any case) stands for. Throws `InputError` for all others:

@@ -13,14 +13,14 @@ constexpr int edge_axis(int edge) { return edge / 4; }
 
 /// The lower corner of an edge: the low two bits of the edge are its offsets along the other two axes, in cyclic order.
 constexpr int edge_corner(int edge) {
-    const int axis = edge_axis(edge);
-    return (edge & 1) << ((axis + 1) % 3) | (edge >> 1 & 1) << ((axis + 2) % 3);
+  const int axis = edge_axis(edge);
+  return (edge & 1) << ((axis + 1) % 3) | (edge >> 1 & 1) << ((axis + 2) % 3);
 }
 
 /// The surface's triangles, counter-clockwise from outside, each corner on the edge given.
 struct CellCase {
-    int triangle_count = 0;
-    std::array<std::array<std::uint8_t, 3>, 5> triangles{};
+  int triangle_count = 0;
+  std::array<std::array<std::uint8_t, 3>, 5> triangles{};
 };
 
 /// Two neighbours always agree on the face between them, and no side of a triangle lies in a face but where the surface

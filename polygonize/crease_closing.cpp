@@ -9,7 +9,7 @@ namespace barkridge {
 
 namespace {
 
-constexpr std::array<int, 3> kStride{1, kHaloPoints, kHaloPoints * kHaloPoints};
+constexpr std::array<int, 3> kStride{1, kHaloPoints, kHaloPoints* kHaloPoints};
 constexpr int kWindow = 2 * kCreaseHalo + 1;
 
 bool is_inside(double value) { return value >= kIsoValue; }
@@ -52,10 +52,12 @@ bool connected_nearby(const std::vector<double>& values, int center, const Step&
   return false;
 }
 
-// Whether an outside point has inside points on both sides along an axis, with no more than one other between, that hang
-// together nearby.
+// Whether an outside point has inside points on both sides along an axis, with no more than one other between, that
+// hang together nearby.
 bool is_crease_bottom(const std::vector<double>& values, int center) {
-  const auto inside_at = [&](const Step& step) { return is_inside(values[static_cast<std::size_t>(center + offset(step))]); };
+  const auto inside_at = [&](const Step& step) {
+    return is_inside(values[static_cast<std::size_t>(center + offset(step))]);
+  };
   for (int axis = 0; axis < 3; ++axis) {
     for (const auto& [before, after] : {std::pair{-1, 1}, std::pair{-1, 2}, std::pair{-2, 1}}) {
       const Step a = along(axis, before), b = along(axis, after);
@@ -83,7 +85,8 @@ std::vector<glm::ivec3> crease_bottoms(const std::vector<double>& values) {
 }
 
 bool may_have_crease_bottoms(const Lattice& lattice, const Field& with_halo, const glm::ivec3& first,
-                             const std::vector<double>& values, std::vector<Vec3>& points, std::vector<double>& halo_values) {
+                             const std::vector<double>& values, std::vector<Vec3>& points,
+                             std::vector<double>& halo_values) {
   static constexpr std::array<int, 3> kBlockStride{1, kBlockPoints, kBlockPoints * kBlockPoints};
   points.clear();
   for (int axis = 0; axis < 3; ++axis) {
@@ -92,15 +95,18 @@ bool may_have_crease_bottoms(const Lattice& lattice, const Field& with_halo, con
       Step start(0);
       start[u] = row % kBlockPoints;
       start[v] = row / kBlockPoints;
-      const int at_start = start[u] * kBlockStride[static_cast<std::size_t>(u)] + start[v] * kBlockStride[static_cast<std::size_t>(v)];
+      const int at_start =
+          start[u] * kBlockStride[static_cast<std::size_t>(u)] + start[v] * kBlockStride[static_cast<std::size_t>(v)];
       int last_inside = -1;
       for (int i = 0; i < kBlockPoints; ++i) {
-        if (!is_inside(values[static_cast<std::size_t>(at_start + i * kBlockStride[static_cast<std::size_t>(axis)])])) continue;
+        if (!is_inside(values[static_cast<std::size_t>(at_start + i * kBlockStride[static_cast<std::size_t>(axis)])]))
+          continue;
         const int outside_between = i - last_inside - 1;
         if (last_inside >= 0 && 1 <= outside_between && outside_between <= 2) return true;
         // A short stretch at the row's start may end just before it.
         if (last_inside < 0 && 1 <= i && i <= 2) {
-          for (int beyond = 1; i + beyond <= 3; ++beyond) points.push_back(lattice.point(first + start + along(axis, -beyond)));
+          for (int beyond = 1; i + beyond <= 3; ++beyond)
+            points.push_back(lattice.point(first + start + along(axis, -beyond)));
         }
         last_inside = i;
       }

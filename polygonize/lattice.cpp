@@ -17,44 +17,42 @@ constexpr double kMarginCells = 1e-3;
 
 // The largest distance between floats that are neighbours and at most `x` large.
 double float_spacing(double x) {
-    const float f = static_cast<float>(x);
-    return static_cast<double>(std::nextafter(f, std::numeric_limits<float>::infinity())) - static_cast<double>(f);
+  const float f = static_cast<float>(x);
+  return static_cast<double>(std::nextafter(f, std::numeric_limits<float>::infinity())) - static_cast<double>(f);
 }
 
 }  // namespace
 
 Box box_of(const Lattice& lattice, const BlockRange& range) {
-    return {lattice.point(kBlockCells * range.lo), lattice.point(kBlockCells * range.hi)};
+  return {lattice.point(kBlockCells * range.lo), lattice.point(kBlockCells * range.hi)};
 }
 
 Lattice make_lattice(const Box& support, double cell_size) {
-    if (!(cell_size > 0) || !std::isfinite(cell_size)) {
-        throw InputError(fmt::format("the cell size must be a positive number, not {}", cell_size));
-    }
-    const Vec3 farthest = glm::max(glm::abs(support.lo), glm::abs(support.hi));
-    const double largest = std::max({farthest.x, farthest.y, farthest.z}) + 2 * cell_size;
-    if (!(largest < static_cast<double>(std::numeric_limits<float>::max()))) {
-        throw InputError(fmt::format("a model that reaches as far as {} cannot be polygonized", largest));
-    }
-    const double spacing = float_spacing(largest);
-    const double margin = std::max(kMarginCells * cell_size, 2 * spacing);
-    if (margin > cell_size / 4) {
-        throw InputError(
-            fmt::format("the cell size {} is too small for a model that reaches as far as {} from the origin: "
-                        "meshes have coordinates of 32 bits, which need cells of at least {}",
-                        cell_size, largest, 8 * spacing));
-    }
-    return {cell_size, margin};
+  if (!(cell_size > 0) || !std::isfinite(cell_size)) {
+    throw InputError(fmt::format("the cell size must be a positive number, not {}", cell_size));
+  }
+  const Vec3 farthest = glm::max(glm::abs(support.lo), glm::abs(support.hi));
+  const double largest = std::max({farthest.x, farthest.y, farthest.z}) + 2 * cell_size;
+  if (!(largest < static_cast<double>(std::numeric_limits<float>::max()))) {
+    throw InputError(fmt::format("a model that reaches as far as {} cannot be polygonized", largest));
+  }
+  const double spacing = float_spacing(largest);
+  const double margin = std::max(kMarginCells * cell_size, 2 * spacing);
+  if (margin > cell_size / 4) {
+    throw InputError(
+        fmt::format("the cell size {} is too small for a model that reaches as far as {} from the origin: "
+                    "meshes have coordinates of 32 bits, which need cells of at least {}",
+                    cell_size, largest, 8 * spacing));
+  }
+  return {cell_size, margin};
 }
 
 BlockRange blocks_around(const Lattice& lattice, const Box& support) {
-    // One point more on each side outweighs the rounding of the quotient.
-    const glm::ivec3 first(glm::floor(support.lo / lattice.cell_size) - 1.0);
-    const glm::ivec3 last(glm::ceil(support.hi / lattice.cell_size) + 1.0);
-    const auto block_of = [](const glm::ivec3& point) {
-        return glm::ivec3(glm::floor(Vec3(point) / Vec3(kBlockCells)));
-    };
-    return {block_of(first), block_of(last) + 1};
+  // One point more on each side outweighs the rounding of the quotient.
+  const glm::ivec3 first(glm::floor(support.lo / lattice.cell_size) - 1.0);
+  const glm::ivec3 last(glm::ceil(support.hi / lattice.cell_size) + 1.0);
+  const auto block_of = [](const glm::ivec3& point) { return glm::ivec3(glm::floor(Vec3(point) / Vec3(kBlockCells))); };
+  return {block_of(first), block_of(last) + 1};
 }
 
 }  // namespace barkridge

@@ -9,15 +9,15 @@
 namespace barkridge {
 
 struct PolygonizeOptions {
-    /// Edge length of the sampling cells, in scene units; > 0 and finite.
-    double cell_size = 0;
-    /// Most triangles; 0 means as many as 31-bit vertex indices allow.
-    std::size_t max_triangles = 0;
-    /// Whether creases are closed at the bottom where they are narrower than a cell, and pieces of the surface too small for the
-    /// lattice are left out (polygonize/unresolved_pieces.h). Without this, signs at lattice points alone decide, and creases show
-    /// spurious hollows, specks and tunnels.
-    bool close_creases = true;
-    Progress progress;
+  /// Edge length of the sampling cells, in scene units; > 0 and finite.
+  double cell_size = 0;
+  /// Most triangles; 0 means as many as 31-bit vertex indices allow.
+  std::size_t max_triangles = 0;
+  /// Whether creases are closed at the bottom where they are narrower than a cell, and pieces of the surface too small
+  /// for the lattice are left out (polygonize/unresolved_pieces.h). Without this, signs at lattice points alone decide,
+  /// and creases show spurious hollows, specks and tunnels.
+  bool close_creases = true;
+  Progress progress;
 };
 
 /// The surface of the field's solid as a closed, oriented 2-manifold that does not intersect itself: marching cubes

@@ -60,8 +60,8 @@ void remove_unresolved_pieces(Mesh& mesh, double cell_size) {
     piece.volume += glm::dot(a, glm::cross(b, c)) / 6;
     piece.area += glm::length(glm::cross(b - a, c - a)) / 2;
   }
-  const Piece* largest = &*std::max_element(pieces.begin(), pieces.end(),
-                                            [](const Piece& a, const Piece& b) { return a.area < b.area; });
+  const Piece* largest =
+      &*std::max_element(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.area < b.area; });
   const auto is_unresolved = [&](std::uint32_t vertex) {
     const Piece& piece = pieces[index_of(vertex)];
     return &piece != largest && std::abs(piece.volume) < 0.4 * cell_size * piece.area;

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <regex>
 #include <set>
 #include <string>
 
@@ -25,20 +24,25 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
     {"cli", {"base", "mesh", "lsystem", "blobtree", "polygonize", "raytrace", "scene"}},
 };
 
+// The header that a line includes in quotes, or nothing.
+std::string included(const std::string& line) {
+  const std::string start = "#include \"";
+  if (line.compare(0, start.size(), start) != 0) return {};
+  return line.substr(start.size(), line.find('"', start.size()) - start.size());
+}
+
 }  // namespace
 
 TEST_CASE("no room includes one above it") {
-  const std::regex include("^\\s*#include \"((\\w+)/[^\"]+)\"");
   int includes = 0;
   for (const auto& [room, allowed] : kMayInclude) {
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(BARKRIDGE_SOURCE_DIR) / room)) {
       if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
       std::ifstream file(entry.path());
       for (std::string line; std::getline(file, line);) {
-        std::smatch match;
-        if (!std::regex_search(line, match, include)) continue;
+        const std::string header = included(line), target = header.substr(0, header.find('/'));
+        if (header.empty()) continue;
         ++includes;
-        const std::string header = match[1], target = match[2];
         if (target == room) continue;
         CAPTURE(entry.path().string(), header);
         CHECK((allowed.count(target) || allowed.count(header)));
