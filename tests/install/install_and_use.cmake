@@ -2,7 +2,7 @@ set(place ${BUILD}/install_test)
 file(REMOVE_RECURSE ${place})
 foreach(step
     "${CMAKE_COMMAND};--install;${BUILD};--prefix;${place}/prefix"
-    "${CMAKE_COMMAND};-S;${CLIENT};-B;${place}/build;-DCMAKE_PREFIX_PATH=${place}/prefix;-DCMAKE_CXX_FLAGS=${FLAGS}"
+    "${CMAKE_COMMAND};-G;Ninja;-S;${CLIENT};-B;${place}/build;-DCMAKE_PREFIX_PATH=${place}/prefix;-DCMAKE_CXX_FLAGS=${FLAGS}"
     "${CMAKE_COMMAND};--build;${place}/build"
     "${place}/build/client"
     "${place}/prefix/bin/barkridge;--version")
