@@ -10,8 +10,9 @@
 
 #include "cli/machine_memory.h"
 #include "tests/cli/run_program.h"
-#include "tests/scene/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
+using namespace barkridge::test;
 using barkridge::read_file;
 using Catch::Matchers::Contains;
 

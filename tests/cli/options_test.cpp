@@ -3,9 +3,10 @@
 #include "base/error.h"
 #include "cli/option_values.h"
 #include "tests/cli/in_process.h"
-#include "tests/scene/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 using namespace barkridge;
+using namespace barkridge::test;
 using Catch::Matchers::Contains;
 
 namespace {

@@ -3,8 +3,9 @@
 #include "base/version.h"
 #include "mesh/mesh.h"
 #include "tests/cli/run_program.h"
-#include "tests/scene/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
+using namespace barkridge::test;
 using barkridge::read_file;
 using Catch::Matchers::Contains;
 

@@ -4,8 +4,9 @@
 #include <sstream>
 
 #include "tests/cli/run_program.h"
-#include "tests/scene/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
+using namespace barkridge::test;
 using Catch::Matchers::Contains;
 
 namespace {

@@ -6,7 +6,7 @@
 #include "tests/support/mesh_checks.h"
 
 using namespace barkridge;
-using barkridge::testing::require_closed_manifold;
+using barkridge::test::require_closed_manifold;
 
 namespace {
 

@@ -1,29 +1,19 @@
 #include "mesh/write.h"
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
-#include <csignal>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "base/error.h"
 #include "base/output_file.h"
+#include "tests/support/file_size_limit.h"
+#include "tests/support/scratch_folder.h"
 
 using namespace barkridge;
-namespace fs = std::filesystem;
+using namespace barkridge::test;
 
 namespace {
-
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("barkridge-mesh-" + std::to_string(::getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-  std::string file(const std::string& name) const { return (path / name).string(); }
-};
 
 // A tetrahedron with coordinates that few decimals cannot hold.
 Mesh awkward_mesh() {
@@ -92,9 +82,9 @@ Mesh read_ply(std::string_view bytes, std::string& header) {
 }
 
 std::string written(const Mesh& mesh, const std::string& name, const MeshWriteOptions& options = {}) {
-  const Folder folder;
-  write_mesh(mesh, folder.file(name), options);
-  return read_file(folder.file(name));
+  const ScratchFolder folder;
+  write_mesh(mesh, folder.path(name), options);
+  return read_file(folder.path(name));
 }
 
 }  // namespace
@@ -167,21 +157,18 @@ TEST_CASE("the extension chooses the format, in any case") {
 }
 
 TEST_CASE("a full disk is reported and leaves the old mesh") {
-  const Folder folder;
+  const ScratchFolder folder;
   Mesh mesh;
   mesh.positions.resize(200000, glm::vec3(1.0f / 3));
   mesh.triangles.resize(200000);
-  std::signal(SIGXFSZ, SIG_IGN);
-  rlimit old{};
-  ::getrlimit(RLIMIT_FSIZE, &old);
   for (const std::string name : {"a.obj", "a.ply", "a.stl"}) {
-    write_mesh({}, folder.file(name));
-    const std::string before = read_file(folder.file(name));
-    const rlimit limit{1 << 16, old.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-    CHECK_THROWS_AS(write_mesh(mesh, folder.file(name)), IoError);
-    ::setrlimit(RLIMIT_FSIZE, &old);
-    CHECK(read_file(folder.file(name)) == before);
+    write_mesh({}, folder.path(name));
+    const std::string before = read_file(folder.path(name));
+    {
+      const FileSizeLimit limit(1 << 16);
+      CHECK_THROWS_AS(write_mesh(mesh, folder.path(name)), IoError);
+    }
+    CHECK(read_file(folder.path(name)) == before);
   }
-  CHECK(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()) == 3);
+  CHECK(folder.entries() == 3);
 }

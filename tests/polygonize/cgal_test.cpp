@@ -10,7 +10,7 @@
 #include "tests/support/lattice_field.h"
 
 using namespace barkridge;
-using namespace barkridge::testing;
+using namespace barkridge::test;
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include "tests/support/analytic_fields.h"
 
 using namespace barkridge;
-using namespace barkridge::testing;
+using namespace barkridge::test;
 
 namespace {
 

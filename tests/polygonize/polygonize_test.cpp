@@ -11,7 +11,7 @@
 #include "tests/support/mesh_checks.h"
 
 using namespace barkridge;
-using namespace barkridge::testing;
+using namespace barkridge::test;
 
 namespace {
 

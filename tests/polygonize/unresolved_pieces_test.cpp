@@ -38,7 +38,7 @@ TEST_CASE("pieces too small for the lattice go, larger ones and the largest stay
   add_octahedron(mesh, {20, 0, 0}, 1, false);  // a speck
   const double volume = examine(mesh).volume;
   remove_unresolved_pieces(mesh, 0.7);
-  const MeshReport report = testing::require_closed_manifold(mesh);
+  const MeshReport report = test::require_closed_manifold(mesh);
   CHECK(report.components == 2);
   CHECK(mesh.positions.size() == 12);
   CHECK(mesh.normals.size() == 12);

@@ -1,44 +1,19 @@
 #include "raytrace/image_file.h"
 
 #include <OpenImageIO/imageio.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <catch2/catch.hpp>
-#include <csignal>
-#include <filesystem>
 #include <memory>
 
 #include "base/output_file.h"
 #include "base/random.h"
+#include "tests/support/file_size_limit.h"
+#include "tests/support/scratch_folder.h"
 
 using namespace barkridge;
-namespace fs = std::filesystem;
+using namespace barkridge::test;
 
 namespace {
-
-// A directory of its own for a test, gone afterwards.
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("barkridge-raytrace-" + std::to_string(::getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-  std::string file(const std::string& name) const { return (path / name).string(); }
-  std::size_t entries() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(path), fs::directory_iterator()));
-  }
-};
-
-// Makes every write past `bytes` fail with EFBIG, as a full disk would with ENOSPC.
-struct FileSizeLimit {
-  rlimit old{};
-  explicit FileSizeLimit(rlim_t bytes) {
-    std::signal(SIGXFSZ, SIG_IGN);
-    ::getrlimit(RLIMIT_FSIZE, &old);
-    const rlimit limit{bytes, old.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() { ::setrlimit(RLIMIT_FSIZE, &old); }
-};
 
 Image noise(int full_width, int full_height, const PixelRegion& region) {
   Image image{full_width, full_height, region, {}};
@@ -55,10 +30,10 @@ const ImageMetadata kMetadata{
 }  // namespace
 
 TEST_CASE("an EXR holds linear half RGBA with its region and metadata") {
-  const Folder folder;
+  const ScratchFolder folder;
   const Image image = noise(60, 40, {10, 20, 33, 17});
-  write_image(image, folder.file("a.EXR"), kMetadata);
-  const auto input = OIIO::ImageInput::open(folder.file("a.EXR"));
+  write_image(image, folder.path("a.EXR"), kMetadata);
+  const auto input = OIIO::ImageInput::open(folder.path("a.EXR"));
   REQUIRE(input);
   const OIIO::ImageSpec& spec = input->spec();
   CHECK(spec.format == OIIO::TypeDesc::HALF);
@@ -75,11 +50,11 @@ TEST_CASE("an EXR holds linear half RGBA with its region and metadata") {
 }
 
 TEST_CASE("a PNG holds 8-bit sRGB with straight alpha and metadata") {
-  const Folder folder;
+  const ScratchFolder folder;
   // Linear grey of 0.21586 is 128 in sRGB. The third pixel is half transparent, the fourth wholly.
   Image image{2, 2, {0, 0, 2, 2}, {0, 1, 0.2158605f, 1, 7, -1, 0.0020f, 1, 0.10793f, 0, 0.5f, 0.5f, 0, 0, 0, 0}};
-  write_image(image, folder.file("a.png"), kMetadata);
-  const auto input = OIIO::ImageInput::open(folder.file("a.png"));
+  write_image(image, folder.path("a.png"), kMetadata);
+  const auto input = OIIO::ImageInput::open(folder.path("a.png"));
   REQUIRE(input);
   const OIIO::ImageSpec& spec = input->spec();
   CHECK(spec.format == OIIO::TypeDesc::UINT8);
@@ -92,26 +67,26 @@ TEST_CASE("a PNG holds 8-bit sRGB with straight alpha and metadata") {
     config.attribute("oiio:UnassociatedAlpha", 1);
     return config;
   }();
-  const auto raw = OIIO::ImageInput::open(folder.file("a.png"), &keep);
+  const auto raw = OIIO::ImageInput::open(folder.path("a.png"), &keep);
   std::vector<std::uint8_t> pixels(16);
   REQUIRE(raw->read_image(0, 0, 0, 4, OIIO::TypeDesc::UINT8, pixels.data()));
   CHECK(pixels == std::vector<std::uint8_t>{0, 255, 128, 255, 255, 0, 7, 255, 128, 0, 255, 128, 0, 0, 0, 0});
 }
 
 TEST_CASE("equal pictures give equal bytes, at any time") {
-  const Folder folder;
+  const ScratchFolder folder;
   const Image image = noise(64, 48, {0, 0, 64, 48});
-  for (const std::string name : {"a.exr", "a.png"}) write_image(image, folder.file(name), kMetadata);
+  for (const std::string name : {"a.exr", "a.png"}) write_image(image, folder.path(name), kMetadata);
   ::sleep(1);  // a time stamp would show
-  for (const std::string name : {"b.exr", "b.png"}) write_image(image, folder.file(name), kMetadata);
-  CHECK(read_file(folder.file("a.exr")) == read_file(folder.file("b.exr")));
-  CHECK(read_file(folder.file("a.png")) == read_file(folder.file("b.png")));
+  for (const std::string name : {"b.exr", "b.png"}) write_image(image, folder.path(name), kMetadata);
+  CHECK(read_file(folder.path("a.exr")) == read_file(folder.path("b.exr")));
+  CHECK(read_file(folder.path("a.png")) == read_file(folder.path("b.png")));
 }
 
 TEST_CASE("a full disk is an error that leaves the old picture") {
-  const Folder folder;
+  const ScratchFolder folder;
   for (const std::string extension : {".exr", ".png"}) {
-    const std::string path = folder.file("a" + extension);
+    const std::string path = folder.path("a" + extension);
     write_image(noise(8, 8, {0, 0, 8, 8}), path);
     const std::string old = read_file(path);
     {

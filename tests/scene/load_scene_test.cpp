@@ -4,9 +4,10 @@
 
 #include "base/error.h"
 #include "scene/scene.h"
-#include "tests/scene/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 using namespace barkridge;
+using namespace barkridge::test;
 using Catch::Matchers::Contains;
 
 namespace {

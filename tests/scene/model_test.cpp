@@ -3,9 +3,10 @@
 #include "base/error.h"
 #include "scene/model_statistics.h"
 #include "scene/pipeline.h"
-#include "tests/scene/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 using namespace barkridge;
+using namespace barkridge::test;
 using Catch::Matchers::Contains;
 
 namespace {

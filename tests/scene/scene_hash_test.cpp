@@ -5,9 +5,10 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "tests/scene/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 using namespace barkridge;
+using namespace barkridge::test;
 
 namespace {
 

@@ -7,9 +7,10 @@
 
 #include "base/error.h"
 #include "base/output_file.h"
-#include "tests/scene/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 using namespace barkridge;
+using namespace barkridge::test;
 using Catch::Matchers::Contains;
 
 namespace {

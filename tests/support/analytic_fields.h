@@ -16,7 +16,7 @@
 #include "base/random.h"
 #include "blobtree/field.h"
 
-namespace barkridge::testing {
+namespace barkridge::test {
 
 struct ValueAndGradient {
   double value = 0;
@@ -211,4 +211,4 @@ inline AnalyticField blobs_field(std::uint64_t seed, int count, double radius) {
           }};
 }
 
-}  // namespace barkridge::testing
+}  // namespace barkridge::test

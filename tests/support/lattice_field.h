@@ -8,7 +8,7 @@
 
 #include "blobtree/field.h"
 
-namespace barkridge::testing {
+namespace barkridge::test {
 
 /// A field given by its values at the points of a lattice with cells of size 1, from the origin on, trilinear between
 /// them. The outermost values must be zero.
@@ -83,4 +83,4 @@ class LatticeField : public Field {
   std::vector<float> values_;
 };
 
-}  // namespace barkridge::testing
+}  // namespace barkridge::test

@@ -4,7 +4,7 @@
 
 #include "mesh/topology.h"
 
-namespace barkridge::testing {
+namespace barkridge::test {
 
 /// Fails the test, naming the first guilty element, unless the mesh is closed, oriented, 2-manifold, and free of
 /// triangles without area, of vertices in the same place and of unused ones. Returns what was found.
@@ -16,4 +16,4 @@ inline MeshReport require_closed_manifold(const Mesh& mesh) {
   return report;
 }
 
-}  // namespace barkridge::testing
+}  // namespace barkridge::test

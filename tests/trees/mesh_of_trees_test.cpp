@@ -68,7 +68,7 @@ void check_trees(std::uint64_t first_seed, int count, int internodes) {
     plain += !handles_possible;
     for (const JunctionKind junction : {JunctionKind::kRidge, JunctionKind::kSmooth}) {
       CAPTURE(seed, junction == JunctionKind::kRidge);
-      const MeshReport report = testing::require_closed_manifold(mesh_of(skeleton, junction, kCellsARadius));
+      const MeshReport report = test::require_closed_manifold(mesh_of(skeleton, junction, kCellsARadius));
       CHECK(report.components == 1);
       CHECK(report.volume > 0);
       if (!handles_possible) CHECK(report.genus == 0);

@@ -9,6 +9,8 @@
 
 #include "base/output_file.h"
 
+namespace barkridge::test {
+
 /// A directory of a test's own, gone afterwards.
 class ScratchFolder {
  public:
@@ -27,7 +29,7 @@ class ScratchFolder {
 
   /// Writes a file and returns its path.
   std::string write(std::string_view name, std::string_view content) const {
-    barkridge::OutputFile file(path(name));
+    OutputFile file(path(name));
     file.write(content);
     file.commit();
     return path(name);
@@ -41,3 +43,5 @@ class ScratchFolder {
  private:
   std::filesystem::path path_;
 };
+
+}  // namespace barkridge::test
