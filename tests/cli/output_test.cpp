@@ -129,11 +129,15 @@ TEST_CASE("a progress bar with the time left appears on a terminal only") {
   const ScratchFolder folder;
   const std::string scene = folder.write("a.skel", kFork);
   const std::vector<std::string> arguments = {"render", scene, "-o", folder.path("a.png"), "--size", "96x128"};
+  CHECK(run_program(arguments).err.empty());
+  if (!has_terminals()) {
+    WARN("this machine has no pseudo-terminals, so the bar itself is not looked at");
+    return;
+  }
   const Finished seen = run_program_on_terminal(arguments);
   CHECK(seen.status == 0);
   CHECK_THAT(seen.err, Contains("rendering") && Contains("%"));
   std::vector<std::string> quiet = arguments;
   quiet.push_back("--quiet");
   CHECK(run_program_on_terminal(quiet).err.empty());
-  CHECK(run_program(arguments).err.empty());
 }

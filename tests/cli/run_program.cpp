@@ -105,6 +105,14 @@ Finished run_program(const std::vector<std::string>& arguments, const RunOptions
   return finish(child, finished);
 }
 
+bool has_terminals() {
+  int controller = -1, terminal = -1;
+  if (::openpty(&controller, &terminal, nullptr, nullptr, nullptr) != 0) return false;
+  ::close(controller);
+  ::close(terminal);
+  return true;
+}
+
 Finished run_program_on_terminal(const std::vector<std::string>& arguments) {
   int controller = -1, terminal = -1;
   if (::openpty(&controller, &terminal, nullptr, nullptr, nullptr) != 0) throw std::runtime_error("openpty");

@@ -19,6 +19,9 @@ struct RunOptions {
 /// Runs `barkridge ARGUMENTS...` to its end.
 Finished run_program(const std::vector<std::string>& arguments, const RunOptions& options = {});
 
+/// Whether this machine gives out pseudo-terminals; some containers do not.
+bool has_terminals();
+
 /// Runs it with the standard error on a pseudo terminal, which `err` then is what was written to.
 Finished run_program_on_terminal(const std::vector<std::string>& arguments);
 
