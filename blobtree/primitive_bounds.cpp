@@ -37,15 +37,19 @@ FieldBounds bounds_of_constant_radius(const Primitive& primitive, const Box& box
   return bounds_from_distance(glm::distance(box.center(), sphere.center) * slope, slope, box);
 }
 
-Interval fade_range(const Interval& y, double start, double length) {
-  return {fade((y.lo - start) / length), fade((y.hi - start) / length)};
-}
+// What one of a faded cone's steps along its axis can be.
+struct FadeRange {
+  Interval value;
+  double slope = 0;
+};
 
-// The steepest slope of fade((y - start) / length): it peaks half-way.
-double steepest_fade(const Interval& y, double start, double length) {
+FadeRange fade_range(const Interval& y, double start, double length) {
+  // Most of a tree is outside the windows.
+  if (y.lo >= start + length) return {{1, 1}, 0};
+  if (y.hi <= start) return {{0, 0}, 0};
   const Interval t{(y.lo - start) / length, (y.hi - start) / length};
-  if (t.contains(0.5)) return kSteepestFade / length;
-  return std::max(fade_slope(t.lo), fade_slope(t.hi)) / length;
+  const double steepest = t.contains(0.5) ? kSteepestFade : std::max(fade_slope(t.lo), fade_slope(t.hi));
+  return {{fade(t.lo), fade(t.hi)}, steepest / length};
 }
 
 // A bound of |grad u| over the box, u being the normalised distance of a faded cone. Where no radius is clamped, u
@@ -63,12 +67,15 @@ double distance_slope(const FadedCone& cone, const FadedConeFrame& frame, const 
                          cone.base_radius + std::max(s * center.lo, s * center.hi)};
   const double lowest = std::clamp(tapered.lo, frame.lowest_radius, frame.highest_radius);
   double slope = 1 / (2 * lowest);
+  const bool foot_clamped = foot.lo < frame.lowest_radius;
+  const bool radius_clamped = tapered.lo < frame.lowest_radius || tapered.hi > frame.highest_radius;
+  if (!foot_clamped && !radius_clamped) return slope;
   const double k = s * s * rho2 / (lowest_rc * lowest_rc);
-  if (foot.lo < frame.lowest_radius) {
+  if (foot_clamped) {
     const double by_rho = std::max((1 + 2 * k) / (2 * std::sqrt(1 + k)), 2 * s * s * highest_rho / frame.lowest_radius);
     slope = std::max(slope, std::hypot(std::abs(s), by_rho) / lowest);
   }
-  if (tapered.lo < frame.lowest_radius || tapered.hi > frame.highest_radius) {
+  if (radius_clamped) {
     slope = std::max(slope, std::hypot(1 + 2 * k, k * std::sqrt(k)) / std::sqrt(1 + k) / (2 * lowest));
   }
   return slope;
@@ -138,9 +145,9 @@ FieldBounds bounds_of(const FadedCone& cone, const FadedConeFrame& frame, const 
   const double y_reach = glm::dot(glm::abs(frame.axis), box.half_extent());
   const double y_rounding = kRounding * (std::abs(y_center) + frame.length);
   const Interval y{y_center - y_reach - y_rounding, y_center + y_reach + y_rounding};
-  const Interval rise = fade_range(y, frame.rise_start, frame.rise_length);
-  const Interval fall = fade_range(y, frame.fall_start, frame.fall_length);
-  const Interval weight{std::max(0.0, rise.lo - fall.hi), std::max(0.0, rise.hi - fall.lo)};
+  const FadeRange rise = fade_range(y, frame.rise_start, frame.rise_length);
+  const FadeRange fall = fade_range(y, frame.fall_start, frame.fall_length);
+  const Interval weight{std::max(0.0, rise.value.lo - fall.value.hi), std::max(0.0, rise.value.hi - fall.value.lo)};
   if (weight.hi <= 0) return {};
 
   const Vec3 beside = from_base - y_center * frame.axis;
@@ -152,8 +159,7 @@ FieldBounds bounds_of(const FadedCone& cone, const FadedConeFrame& frame, const 
   const double u = std::sqrt((y_center - center) * (y_center - center) + rho2) / (2 * radius);
   const FieldBounds g = bounds_from_distance(u, distance_slope(cone, frame, y, highest_rho), box);
   if (g.value.hi <= 0) return {};
-  const double weight_slope = std::max(steepest_fade(y, frame.rise_start, frame.rise_length),
-                                       steepest_fade(y, frame.fall_start, frame.fall_length));
+  const double weight_slope = std::max(rise.slope, fall.slope);
   return {{weight.lo * g.value.lo, weight.hi * g.value.hi}, weight.hi * g.slope + g.value.hi * weight_slope};
 }
 
