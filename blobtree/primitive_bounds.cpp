@@ -167,25 +167,4 @@ FieldBounds bounds_of(const Disc& disc, const Box& box) { return bounds_of_const
 FieldBounds bounds_of(const Ring& ring, const Box& box) { return bounds_of_constant_radius(ring, box); }
 FieldBounds bounds_of(const Polygon& polygon, const Box& box) { return bounds_of_constant_radius(polygon, box); }
 
-double thinnest_radius(const Cone& cone) { return std::min(cone.base_radius, cone.tip_radius); }
-double thinnest_radius(const FadedCone& cone) { return std::min(cone.base_radius, cone.tip_radius); }
-double thinnest_radius(const Disc& disc) { return disc.radius; }
-double thinnest_radius(const Ring& ring) { return ring.radius; }
-double thinnest_radius(const Polygon& polygon) { return polygon.radius; }
-
-double thinnest_radius(const BlobTree& tree) {
-  double thinnest = 0;
-  for (const Node& node : tree.nodes) {
-    std::visit(
-        [&](const auto& what) {
-          if constexpr (requires { thinnest_radius(what); }) {
-            const double radius = thinnest_radius(what);
-            if (thinnest == 0 || radius < thinnest) thinnest = radius;
-          }
-        },
-        node.what);
-  }
-  return thinnest;
-}
-
 }  // namespace barkridge

@@ -31,11 +31,4 @@ FieldBounds bounds_of(const Disc& disc, const Box& box);
 FieldBounds bounds_of(const Ring& ring, const Box& box);
 FieldBounds bounds_of(const Polygon& polygon, const Box& box);
 
-/// The smallest surface radius of a primitive: what a mesh must resolve.
-double thinnest_radius(const Cone& cone);
-double thinnest_radius(const FadedCone& cone);
-double thinnest_radius(const Disc& disc);
-double thinnest_radius(const Ring& ring);
-double thinnest_radius(const Polygon& polygon);
-
 }  // namespace barkridge
