@@ -60,7 +60,8 @@ Mesh mesh_of(const Skeleton& skeleton, JunctionKind junction, double cells_a_rad
   return polygonize(*compile(tree_from_skeleton(skeleton, options)), cells);
 }
 
-void check_trees(std::uint64_t first_seed, int count, int internodes) {
+// `least_plain`: how many of them must be free of near misses, so that their lack of handles is tested at all.
+void check_trees(std::uint64_t first_seed, int count, int internodes, int least_plain) {
   int plain = 0;
   for (std::uint64_t seed = first_seed; seed < first_seed + static_cast<std::uint64_t>(count); ++seed) {
     const Skeleton skeleton = random_skeleton(seed, internodes);
@@ -74,16 +75,16 @@ void check_trees(std::uint64_t first_seed, int count, int internodes) {
       if (!handles_possible) CHECK(report.genus == 0);
     }
   }
-  CHECK(plain > count / 8);
+  CHECK(plain >= least_plain);
 }
 
 }  // namespace
 
 TEST_CASE("random trees of both junction kinds become one closed manifold each, without handles") {
-  check_trees(0, 200, 14);
+  check_trees(0, 200, 14, 30);
 }
 
-TEST_CASE("larger random trees become one closed manifold each", "[long]") { check_trees(5000, 30, 40); }
+TEST_CASE("larger random trees become one closed manifold each", "[long]") { check_trees(5000, 30, 40, 1); }
 
 TEST_CASE("a tree's mesh is the same to the bit on one thread and on two") {
   const Skeleton skeleton = random_skeleton(3, 30);
