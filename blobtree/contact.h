@@ -12,11 +12,8 @@ namespace barkridge {
 double contact_expansion(const ContactShape& shape, double x);
 double contact_expansion_slope(const ContactShape& shape, double x);
 
-/// What a child with field `f` does to another: -(f - T) where it presses, h(T - f) where it only nears; and its
-/// derivative.
-inline double contact_effect(const ContactShape& shape, double f) {
-  return f >= kIsoValue ? kIsoValue - f : contact_expansion(shape, kIsoValue - f);
-}
+/// The derivative of what a child with field `f` does to another: -(f - T) where it presses, h(T - f) where it only
+/// nears.
 inline double contact_effect_slope(const ContactShape& shape, double f) {
   return f >= kIsoValue ? -1.0 : -contact_expansion_slope(shape, kIsoValue - f);
 }

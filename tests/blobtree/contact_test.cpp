@@ -24,6 +24,11 @@ double value_at_origin(const BlobTree& tree) {
   return value;
 }
 
+// What a child with field `f` does to another.
+double contact_effect(const ContactShape& shape, double f) {
+  return f >= kIsoValue ? kIsoValue - f : contact_expansion(shape, kIsoValue - f);
+}
+
 }  // namespace
 
 TEST_CASE("the expansion has the ends, peak and slopes that the theory states") {
