@@ -1,47 +1,129 @@
-#include "blobtree/field_program.h"
-#include "blobtree/operator_bounds.h"
+#include <array>
+
+#include "blobtree/field_model.h"
+#include "blobtree/tree.h"
 
 namespace barkridge {
 
 namespace {
 
-class CompiledField final : public Field {
+using ModelPtr = std::shared_ptr<const FieldModel>;
+
+// Up to so many primitives, a region gets a program of its own.
+constexpr std::size_t kMostAssembled = 128;
+
+// The numbers of the primitives that may matter in a region; nothing where there are too many.
+bool find_primitives(const FieldModel& model, const Box& region, std::vector<std::uint32_t>& found) {
+  found.clear();
+  return model.supports.find(region, kMostAssembled, found);
+}
+
+std::vector<std::uint32_t>& primitive_scratch() {
+  thread_local std::vector<std::uint32_t> found;
+  return found;
+}
+
+// A part of a model, in a region where not too many primitives matter.
+class PartField final : public Field {
  public:
-  CompiledField(FieldProgram program, const Box& support)
-      : program_(std::move(program)), depth_(depth_of(program_)), support_(program_.code.empty() ? Box{} : support) {}
+  PartField(ModelPtr model, FieldProgram program, const Box& support)
+      : model_(std::move(model)), program_(std::move(program)), support_(program_.code.empty() ? Box{} : support) {
+    program_.code.shrink_to_fit();
+    program_.cones.shrink_to_fit();
+  }
 
   Box support() const override { return support_; }
 
   void values(std::span<const Vec3> points, std::span<double> values) const override {
-    evaluate(program_, depth_, points, values, {});
+    evaluate(*model_, program_, points, values, {});
   }
 
   void values_and_gradients(std::span<const Vec3> points, std::span<double> values,
                             std::span<Vec3> gradients) const override {
-    evaluate(program_, depth_, points, values, gradients);
+    evaluate(*model_, program_, points, values, gradients);
   }
 
-  FieldBounds bounds(const Box& box) const override { return bound(program_, box); }
+  void values_along(const Ray& ray, const Interval& range, std::span<double> values) const override {
+    evaluate_along(*model_, program_, ray, range, values);
+  }
+
+  FieldBounds bounds(const Box& box) const override { return bound(*model_, program_, box); }
 
   std::shared_ptr<const Field> restricted(const Box& box) const override {
-    FieldProgram rest{program_.data, {}};
-    bound(program_, box, &rest.code);
-    rest.code.shrink_to_fit();
-    return std::make_shared<CompiledField>(std::move(rest), intersect(support_, box));
+    FieldProgram rest;
+    bound(*model_, program_, box, &rest);
+    return std::make_shared<PartField>(model_, std::move(rest), intersect(support_, box));
   }
 
-  std::size_t primitive_count() const override {
-    std::size_t count = 0;
-    for (const FieldInstruction& instruction : program_.code) {
-      count += instruction.op == FieldInstruction::Op::kCone || instruction.op == FieldInstruction::Op::kFadedCone ||
-               instruction.op == FieldInstruction::Op::kOther;
-    }
-    return count;
-  }
+  std::size_t primitive_count() const override { return primitive_count_of(program_); }
 
  private:
+  ModelPtr model_;
   FieldProgram program_;
-  FieldProgramDepth depth_;
+  Box support_;
+};
+
+// The model where too many primitives matter for one program: everywhere, or in a large region.
+class WholeField final : public Field {
+ public:
+  WholeField(ModelPtr model, const Box& support) : model_(std::move(model)), support_(support) {}
+
+  Box support() const override { return support_; }
+
+  void values(std::span<const Vec3> points, std::span<double> values) const override {
+    evaluate_by_parts(points, values, {});
+  }
+
+  void values_and_gradients(std::span<const Vec3> points, std::span<double> values,
+                            std::span<Vec3> gradients) const override {
+    evaluate_by_parts(points, values, gradients);
+  }
+
+  FieldBounds bounds(const Box& box) const override {
+    std::vector<std::uint32_t>& found = primitive_scratch();
+    if (!find_primitives(*model_, box, found)) return model_->bounds;
+    thread_local FieldProgram program;
+    assemble(*model_, found, program);
+    return bound(*model_, program, box);
+  }
+
+  std::shared_ptr<const Field> restricted(const Box& box) const override {
+    std::vector<std::uint32_t>& found = primitive_scratch();
+    const Box support = intersect(support_, box);
+    if (!find_primitives(*model_, box, found)) return std::make_shared<WholeField>(model_, support);
+    thread_local FieldProgram program;
+    assemble(*model_, found, program);
+    FieldProgram rest;
+    bound(*model_, program, box, &rest);
+    return std::make_shared<PartField>(model_, std::move(rest), support);
+  }
+
+  std::size_t primitive_count() const override { return model_->cones.size(); }
+
+ private:
+  // Neighbours in a batch are often near each other: one program serves as many of them as few primitives matter to.
+  void evaluate_by_parts(std::span<const Vec3> points, std::span<double> values, std::span<Vec3> gradients) const {
+    constexpr std::size_t kMostAtOnce = 64;
+    constexpr std::size_t kFew = 16;
+    std::vector<std::uint32_t>& found = primitive_scratch();
+    thread_local FieldProgram program;
+    for (std::size_t start = 0; start < points.size();) {
+      std::size_t count = std::min(kMostAtOnce, points.size() - start);
+      while (true) {
+        Box around;
+        for (std::size_t i = 0; i < count; ++i) around = unite(around, points[start + i]);
+        found.clear();
+        if (model_->supports.find(around, count == 1 ? model_->cones.size() : kFew, found)) break;
+        count = std::max<std::size_t>(1, count / 8);
+      }
+      assemble(*model_, found, program);
+      evaluate(*model_, program, points.subspan(start, count), values.subspan(start, count),
+               gradients.empty() ? gradients : gradients.subspan(start, count));
+      start += count;
+    }
+  }
+
+  ModelPtr model_;
   Box support_;
 };
 
@@ -49,8 +131,9 @@ class CompiledField final : public Field {
 
 std::shared_ptr<const Field> compile(const BlobTree& tree) {
   check(tree);
-  const Box support = tree.nodes.empty() ? Box{} : supports_of(tree)[tree.root];
-  return std::make_shared<CompiledField>(compile_program(tree), support);
+  ModelPtr model = compile_model(tree);
+  const Box support = model->support;
+  return std::make_shared<WholeField>(std::move(model), support);
 }
 
 }  // namespace barkridge

@@ -10,147 +10,259 @@ namespace barkridge::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The kernels for one width of vector. Lanes do not see each other, so a point's bits do not depend on the width.
-template <class Tag>
-struct Kernels {
-  using Vec = hn::Vec<Tag>;
+using Tag = hn::CappedTag<float, kBatchGranule>;
+using Vec = hn::Vec<Tag>;
+using Mask = hn::Mask<Tag>;
+constexpr std::size_t kLanes = hn::MaxLanes(Tag());
 
-  static HWY_INLINE Vec constant(double x) { return hn::Set(Tag(), x); }
+HWY_INLINE Vec constant(float x) { return hn::Set(Tag(), x); }
+HWY_INLINE Vec clamped(Vec x, Vec lo, Vec hi) { return hn::Min(hn::Max(x, lo), hi); }
 
-  // Maximum and minimum as std::max(a, b) and std::min(a, b) choose.
-  static HWY_INLINE Vec largest(Vec a, Vec b) { return hn::IfThenElse(hn::Lt(a, b), b, a); }
-  static HWY_INLINE Vec smallest(Vec a, Vec b) { return hn::IfThenElse(hn::Lt(b, a), b, a); }
-  static HWY_INLINE Vec clamped(Vec x, Vec lo, Vec hi) { return smallest(largest(x, lo), hi); }
-
-  static HWY_INLINE Vec falloff(Vec v) {
-    const Vec t = largest(hn::Zero(Tag()), hn::Sub(constant(1), v));
-    return hn::Mul(hn::Mul(t, t), hn::Sub(constant(1), hn::Mul(v, constant(4.0 / 9))));
-  }
-
-  static HWY_INLINE Vec falloff_slope(Vec v) {
-    const Vec t = largest(hn::Zero(Tag()), hn::Sub(constant(1), v));
-    const Vec near = hn::Mul(constant(2), hn::Sub(constant(1), hn::Mul(v, constant(4.0 / 9))));
-    return hn::Neg(hn::Mul(t, hn::Add(near, hn::Mul(t, constant(4.0 / 9)))));
-  }
-
-  static HWY_INLINE Vec fade(Vec t) {  // t in [0, 1]
-    const Vec cube = hn::Mul(hn::Mul(t, t), t);
-    return hn::Mul(cube, hn::Add(constant(10), hn::Mul(t, hn::Sub(hn::Mul(constant(6), t), constant(15)))));
-  }
-
-  static HWY_INLINE Vec fade_slope(Vec t) {  // t in [0, 1]
-    const Vec rest = hn::Sub(constant(1), t);
-    return hn::Mul(constant(30), hn::Mul(hn::Mul(t, t), hn::Mul(rest, rest)));
-  }
-
-  // Points relative to an axis: y along it, (bx, by, bz) across it.
-  struct AxialPoint {
-    Vec y, bx, by, bz, rho2;
-  };
-
-  static HWY_INLINE AxialPoint axial_point(const PointBatch& p, std::size_t i, const Vec3& base, const Vec3& axis) {
-    const Tag d;
-    const Vec ax = constant(axis.x), ay = constant(axis.y), az = constant(axis.z);
-    const Vec qx = hn::Sub(hn::LoadU(d, p.x + i), constant(base.x));
-    const Vec qy = hn::Sub(hn::LoadU(d, p.y + i), constant(base.y));
-    const Vec qz = hn::Sub(hn::LoadU(d, p.z + i), constant(base.z));
-    AxialPoint q;
-    q.y = hn::Add(hn::Add(hn::Mul(qx, ax), hn::Mul(qy, ay)), hn::Mul(qz, az));
-    q.bx = hn::Sub(qx, hn::Mul(q.y, ax));
-    q.by = hn::Sub(qy, hn::Mul(q.y, ay));
-    q.bz = hn::Sub(qz, hn::Mul(q.y, az));
-    q.rho2 = hn::Add(hn::Add(hn::Mul(q.bx, q.bx), hn::Mul(q.by, q.by)), hn::Mul(q.bz, q.bz));
-    return q;
-  }
-
-  // gradient = along * axis + beside * (point across the axis)
-  static HWY_INLINE void store_gradient(const FieldColumns& out, std::size_t i, const AxialPoint& q, const Vec3& axis,
-                                        Vec along, Vec beside) {
-    const Tag d;
-    hn::StoreU(hn::Add(hn::Mul(beside, q.bx), hn::Mul(along, constant(axis.x))), d, out.gx + i);
-    hn::StoreU(hn::Add(hn::Mul(beside, q.by), hn::Mul(along, constant(axis.y))), d, out.gy + i);
-    hn::StoreU(hn::Add(hn::Mul(beside, q.bz), hn::Mul(along, constant(axis.z))), d, out.gz + i);
-  }
-
-  static void cone(const FieldProgramData::ConeData& data, const PointBatch& p, const FieldColumns& out) {
-    const Tag d;
-    const Vec s = constant(data.taper), r0 = constant(data.cone.base_radius), length = constant(data.length);
-    const Vec thick_end = constant(data.taper > 0 ? data.length : 0.0);
-    for (std::size_t i = 0; i < p.size; i += hn::Lanes(d)) {
-      const AxialPoint q = axial_point(p, i, data.cone.base, data.axis);
-      const Vec foot = hn::Add(r0, hn::Mul(s, q.y));
-      const Vec inside = clamped(hn::Add(q.y, hn::Div(hn::Mul(s, q.rho2), foot)), hn::Zero(d), length);
-      const Vec best = hn::IfThenElse(hn::Gt(foot, hn::Zero(d)), inside, thick_end);
-      const Vec radius = hn::Add(r0, hn::Mul(s, best));
-      const Vec inverse = hn::Div(constant(0.25), hn::Mul(radius, radius));
-      const Vec dy = hn::Sub(q.y, best);
-      const Vec v = hn::Mul(hn::Add(hn::Mul(dy, dy), q.rho2), inverse);
-      hn::StoreU(falloff(v), d, out.f + i);
-      if (out.gx) {
-        const Vec slope = hn::Mul(hn::Mul(constant(2), falloff_slope(v)), inverse);
-        store_gradient(out, i, q, data.axis, hn::Mul(slope, dy), slope);
-      }
-    }
-  }
-
-  static void faded_cone(const FieldProgramData::FadedConeData& data, const PointBatch& p, const FieldColumns& out) {
-    const Tag d;
-    const FadedConeFrame& frame = data.frame;
-    const Vec zero = hn::Zero(d), one = constant(1);
-    const Vec s = constant(frame.taper), r0 = constant(data.cone.base_radius);
-    const Vec lowest = constant(frame.lowest_radius), highest = constant(frame.highest_radius);
-    const Vec inverse_rise = constant(1 / frame.rise_length), inverse_fall = constant(1 / frame.fall_length);
-    for (std::size_t i = 0; i < p.size; i += hn::Lanes(d)) {
-      const AxialPoint q = axial_point(p, i, data.cone.base, frame.axis);
-      const Vec rise = clamped(hn::Mul(hn::Sub(q.y, constant(frame.rise_start)), inverse_rise), zero, one);
-      const Vec fall = clamped(hn::Mul(hn::Sub(q.y, constant(frame.fall_start)), inverse_fall), zero, one);
-      const Vec weight = largest(zero, hn::Sub(fade(rise), fade(fall)));
-
-      const Vec foot = hn::Add(r0, hn::Mul(s, q.y));
-      const Vec rc = largest(foot, lowest);
-      const Vec best = hn::Add(q.y, hn::Div(hn::Mul(s, q.rho2), rc));
-      const Vec center = clamped(best, constant(frame.free_axis.lo), constant(frame.free_axis.hi));
-      const Vec tapered = hn::Add(r0, hn::Mul(s, center));
-      const Vec radius = clamped(tapered, lowest, highest);
-      const Vec inverse = hn::Div(constant(0.25), hn::Mul(radius, radius));
-      const Vec dy = hn::Sub(q.y, center);
-      const Vec v = hn::Mul(hn::Add(hn::Mul(dy, dy), q.rho2), inverse);
-      const Vec g = falloff(v);
-      hn::StoreU(hn::Mul(weight, g), d, out.f + i);
-      if (out.gx) {
-        // The nearest sphere's movement with y and rho^2 matters only where a radius is clamped. [docs/field.md]
-        const auto moves = hn::Eq(center, best);
-        const Vec bend = hn::Div(hn::Mul(hn::Mul(s, s), q.rho2), hn::Mul(rc, rc));
-        const Vec center_by_y = hn::IfThenElse(hn::Gt(foot, lowest), hn::Sub(one, bend), one);
-        const Vec radius_slope = hn::IfThenElseZero(hn::Eq(radius, tapered), s);
-        const Vec by_radius = hn::Mul(hn::Mul(constant(8), v), hn::Mul(radius, radius_slope));
-        const Vec v_by_center =
-            hn::IfThenElseZero(moves, hn::Neg(hn::Mul(hn::Add(hn::Mul(constant(2), dy), by_radius), inverse)));
-        const Vec v_by_y = hn::Add(hn::Mul(hn::Mul(constant(2), dy), inverse), hn::Mul(v_by_center, center_by_y));
-        const Vec v_by_rho2 = hn::Add(inverse, hn::Div(hn::Mul(v_by_center, s), rc));
-        const Vec slope = hn::Mul(weight, falloff_slope(v));
-        const Vec weight_slope = hn::IfThenElseZero(
-            hn::Gt(weight, zero),
-            hn::Sub(hn::Mul(fade_slope(rise), inverse_rise), hn::Mul(fade_slope(fall), inverse_fall)));
-        const Vec along = hn::Add(hn::Mul(slope, v_by_y), hn::Mul(g, weight_slope));
-        store_gradient(out, i, q, frame.axis, along, hn::Mul(hn::Mul(slope, constant(2)), v_by_rho2));
-      }
-    }
-  }
-};
-
-// At most eight lanes, so that a granule is a whole number of vectors on every set; and two for the single points of
-// rays, whose divisions take a fraction of the time.
-using Wide = hn::CappedTag<double, kBatchGranule>;
-using Narrow = hn::CappedTag<double, 2>;
-constexpr std::size_t kNarrowBatch = 2;
-
-void EvaluateCone(const FieldProgramData::ConeData& cone, const PointBatch& p, const FieldColumns& out) {
-  p.size <= kNarrowBatch ? Kernels<Narrow>::cone(cone, p, out) : Kernels<Wide>::cone(cone, p, out);
+HWY_INLINE Vec fade(Vec t) {  // t in [0, 1]
+  const Vec cube = hn::Mul(hn::Mul(t, t), t);
+  return hn::Mul(cube, hn::MulAdd(t, hn::MulAdd(constant(6), t, constant(-15)), constant(10)));
 }
 
-void EvaluateFadedCone(const FieldProgramData::FadedConeData& cone, const PointBatch& p, const FieldColumns& out) {
-  p.size <= kNarrowBatch ? Kernels<Narrow>::faded_cone(cone, p, out) : Kernels<Wide>::faded_cone(cone, p, out);
+HWY_INLINE Vec fade_slope(Vec t) {  // t in [0, 1]
+  const Vec rest = hn::Mul(t, hn::Sub(constant(1), t));
+  return hn::Mul(constant(30), hn::Mul(rest, rest));
+}
+
+// Points relative to an axis: y along it, b across it.
+struct AxialPoint {
+  Vec y, bx, by, bz, rho2;
+};
+
+HWY_INLINE AxialPoint axial_point(const LocalCone& c, Vec x, Vec y, Vec z) {
+  const Vec ax = constant(c.axis[0]), ay = constant(c.axis[1]), az = constant(c.axis[2]);
+  const Vec qx = hn::Sub(x, constant(c.base[0]));
+  const Vec qy = hn::Sub(y, constant(c.base[1]));
+  const Vec qz = hn::Sub(z, constant(c.base[2]));
+  AxialPoint q;
+  q.y = hn::MulAdd(qx, ax, hn::MulAdd(qy, ay, hn::Mul(qz, az)));
+  q.bx = hn::NegMulAdd(q.y, ax, qx);
+  q.by = hn::NegMulAdd(q.y, ay, qy);
+  q.bz = hn::NegMulAdd(q.y, az, qz);
+  q.rho2 = hn::MulAdd(q.bx, q.bx, hn::MulAdd(q.by, q.by, hn::Mul(q.bz, q.bz)));
+  return q;
+}
+
+// The falloff's argument is v = part / (4 whole). Away from caps and limits the nearest sphere need not be found:
+// v = rho^2 / (4 (foot^2 + taper^2 rho^2)) with foot the radius at the point's own height. [docs/field.md, "Cone"]
+struct Ratio {
+  Vec part, whole;
+};
+
+// The derivatives of v along the axis and, over the distance from it, across.
+struct RatioSlope {
+  Vec along, across;
+};
+
+HWY_INLINE RatioSlope ratio_slope(const LocalCone& c, Vec foot, Vec v, Vec inverse) {
+  const Vec foot_share = hn::Mul(constant(8), hn::Mul(foot, inverse));
+  return {hn::Mul(hn::Mul(foot_share, constant(-c.taper)), v), hn::Mul(foot_share, hn::Mul(foot, inverse))};
+}
+
+// Where the nearest sphere is an end of the axis, it is at a distance `dy` along it.
+struct Ends {
+  Mask any;
+  Vec dy;
+};
+
+HWY_INLINE void apply_end(Mask at_end, Vec dy, float radius, const AxialPoint& q, Ratio& ratio, Ends& ends) {
+  ratio.part = hn::IfThenElse(at_end, hn::MulAdd(dy, dy, q.rho2), ratio.part);
+  ratio.whole = hn::IfThenElse(at_end, constant(radius * radius), ratio.whole);
+  ends.any = hn::Or(ends.any, at_end);
+  ends.dy = hn::IfThenElse(at_end, dy, ends.dy);
+}
+
+// The nearest sphere lies at y + taper rho^2 / foot, kept between the free ends.
+HWY_INLINE Ends apply_ends(const LocalCone& c, const AxialPoint& q, Vec foot, bool base, bool tip, Ratio& ratio) {
+  Ends ends{hn::MaskFromVec(hn::Zero(Tag())), hn::Zero(Tag())};
+  const Vec sweep = hn::Mul(constant(c.taper), q.rho2);
+  if (base) {
+    const Mask at_base = hn::Le(hn::MulAdd(q.y, foot, sweep), hn::Zero(Tag()));
+    apply_end(at_base, q.y, c.base_radius, q, ratio, ends);
+  }
+  if (tip) {
+    const Vec past = hn::Sub(q.y, constant(c.length));
+    const Mask at_tip = hn::Ge(hn::MulAdd(past, foot, sweep), hn::Zero(Tag()));
+    apply_end(at_tip, past, c.tip_radius, q, ratio, ends);
+  }
+  return ends;
+}
+
+HWY_INLINE void apply_ends(const Ends& ends, Vec inverse, RatioSlope& slope) {
+  const Vec twice = hn::Add(inverse, inverse);
+  slope.along = hn::IfThenElse(ends.any, hn::Mul(twice, ends.dy), slope.along);
+  slope.across = hn::IfThenElse(ends.any, twice, slope.across);
+}
+
+struct Accumulator {
+  Vec f, gx, gy, gz;
+};
+
+HWY_INLINE Vec falloff_of(Vec v, Vec& t, Vec& near) {
+  t = hn::Max(hn::Sub(constant(1), v), hn::Zero(Tag()));
+  near = hn::NegMulAdd(v, constant(4.0f / 9), constant(1));
+  return hn::Mul(hn::Mul(t, t), near);
+}
+
+// Adds falloff and, where wanted, gradient of a cone without weight, with or without caps.
+template <bool kGradients, bool kCapped>
+HWY_INLINE void add_plain(const LocalCone& c, Vec x, Vec y, Vec z, Accumulator& sum) {
+  const AxialPoint q = axial_point(c, x, y, z);
+  const Vec foot = hn::MulAdd(constant(c.taper), q.y, constant(c.base_radius));
+  Ratio ratio{q.rho2, hn::MulAdd(foot, foot, hn::Mul(constant(c.taper * c.taper), q.rho2))};
+  Ends ends;
+  if constexpr (kCapped) ends = apply_ends(c, q, foot, true, true, ratio);
+  const Vec inverse = hn::Div(constant(0.25f), ratio.whole);
+  const Vec v = hn::Mul(ratio.part, inverse);
+  Vec t, near;
+  sum.f = hn::Add(sum.f, falloff_of(v, t, near));
+  if constexpr (kGradients) {
+    RatioSlope slope = ratio_slope(c, foot, v, inverse);
+    if constexpr (kCapped) apply_ends(ends, inverse, slope);
+    const Vec fall = hn::Neg(hn::Mul(t, hn::MulAdd(constant(4.0f / 9), t, hn::Add(near, near))));
+    const Vec along = hn::Mul(fall, slope.along), across = hn::Mul(fall, slope.across);
+    sum.gx = hn::Add(sum.gx, hn::MulAdd(across, q.bx, hn::Mul(along, constant(c.axis[0]))));
+    sum.gy = hn::Add(sum.gy, hn::MulAdd(across, q.by, hn::Mul(along, constant(c.axis[1]))));
+    sum.gz = hn::Add(sum.gz, hn::MulAdd(across, q.bz, hn::Mul(along, constant(c.axis[2]))));
+  }
+}
+
+HWY_INLINE float lowest_radius(const LocalCone& c) {
+  return 0.5f * (c.base_radius < c.tip_radius ? c.base_radius : c.tip_radius);
+}
+HWY_INLINE float highest_radius(const LocalCone& c) {
+  return 2.0f * (c.base_radius < c.tip_radius ? c.tip_radius : c.base_radius);
+}
+
+// The limits of a faded cone's radius. Where one is at work, with rc the foot kept above the lowest radius, e =
+// taper^2 rho^2, m = foot rc + e kept between the limits times rc: v = rho^2 (rc^2 + e) / (4 m^2).
+struct Limited {
+  Mask any;
+  Vec rc, square, kept;
+  Mask foot_is_free, kept_is_free, kept_is_high;
+};
+
+HWY_INLINE Limited limited(const LocalCone& c, const AxialPoint& q, Vec foot, Vec e, Ratio& ratio) {
+  const float lowest = lowest_radius(c), highest = highest_radius(c);
+  Limited l;
+  l.rc = hn::Max(foot, constant(lowest));
+  l.foot_is_free = hn::Ge(foot, constant(lowest));
+  const Vec m = hn::MulAdd(foot, l.rc, e);
+  const Vec low = hn::Mul(constant(lowest), l.rc), high = hn::Mul(constant(highest), l.rc);
+  l.kept = clamped(m, low, high);
+  l.kept_is_free = hn::Eq(m, l.kept);
+  l.kept_is_high = hn::Gt(m, high);
+  l.any = hn::Not(hn::And(l.foot_is_free, l.kept_is_free));
+  l.square = hn::MulAdd(l.rc, l.rc, e);
+  ratio.part = hn::IfThenElse(l.any, hn::Mul(q.rho2, l.square), ratio.part);
+  ratio.whole = hn::IfThenElse(l.any, hn::Mul(l.kept, l.kept), ratio.whole);
+  return l;
+}
+
+HWY_INLINE void limit_slope(const LocalCone& c, const Limited& l, const AxialPoint& q, Vec foot, RatioSlope& slope) {
+  const float lowest = lowest_radius(c), highest = highest_radius(c);
+  const Vec s = constant(c.taper), s2 = constant(c.taper * c.taper);
+  const Vec inverse = hn::Div(constant(1), l.kept);
+  const Vec rc_by_y = hn::IfThenElseZero(l.foot_is_free, s);
+  const Vec square_by_y = hn::Mul(constant(2), hn::Mul(l.rc, rc_by_y));
+  const Vec free_by_y = hn::MulAdd(s, l.rc, hn::Mul(foot, rc_by_y));
+  const Vec limit = hn::IfThenElse(l.kept_is_high, constant(highest), constant(lowest));
+  const Vec kept_by_y = hn::IfThenElse(l.kept_is_free, free_by_y, hn::Mul(limit, rc_by_y));
+  const Vec kept_by_rho2 = hn::IfThenElseZero(l.kept_is_free, s2);
+  const Vec share = hn::Mul(l.square, inverse);
+  const Vec quarter = hn::Mul(constant(0.25f), inverse);
+  // d(square / kept^2) = (d square - 2 square / kept d kept) / kept^2
+  const Vec by_y = hn::Mul(inverse, hn::NegMulAdd(hn::Add(share, share), kept_by_y, square_by_y));
+  const Vec by_rho2 = hn::Mul(inverse, hn::NegMulAdd(hn::Add(share, share), kept_by_rho2, s2));
+  const Vec along = hn::Mul(quarter, hn::Mul(q.rho2, by_y));
+  const Vec across = hn::Mul(hn::Add(quarter, quarter), hn::MulAdd(q.rho2, by_rho2, share));
+  slope.along = hn::IfThenElse(l.any, along, slope.along);
+  slope.across = hn::IfThenElse(l.any, across, slope.across);
+}
+
+template <bool kGradients>
+HWY_INLINE void add_faded(const LocalCone& c, Vec x, Vec y, Vec z, Accumulator& sum) {
+  const Vec zero = hn::Zero(Tag()), one = constant(1);
+  const AxialPoint q = axial_point(c, x, y, z);
+  const Vec rise = clamped(hn::Mul(hn::Sub(q.y, constant(c.rise_start)), constant(c.rise_scale)), zero, one);
+  const Vec fall = clamped(hn::Mul(hn::Sub(q.y, constant(c.fall_start)), constant(c.fall_scale)), zero, one);
+  const Vec weight = hn::Max(hn::Sub(fade(rise), fade(fall)), zero);
+
+  const Vec foot = hn::MulAdd(constant(c.taper), q.y, constant(c.base_radius));
+  const Vec e = hn::Mul(constant(c.taper * c.taper), q.rho2);
+  Ratio ratio{q.rho2, hn::MulAdd(foot, foot, e)};
+  const Limited l = limited(c, q, foot, e, ratio);
+  const Ends ends = apply_ends(c, q, l.rc, c.free_base, c.free_tip, ratio);
+  const Vec inverse = hn::Div(constant(0.25f), ratio.whole);
+  const Vec v = hn::Mul(ratio.part, inverse);
+  Vec t, near;
+  const Vec g = falloff_of(v, t, near);
+  sum.f = hn::MulAdd(weight, g, sum.f);
+  if constexpr (kGradients) {
+    RatioSlope slope = ratio_slope(c, foot, v, inverse);
+    if (!hn::AllFalse(Tag(), l.any)) limit_slope(c, l, q, foot, slope);
+    apply_ends(ends, inverse, slope);
+    const Vec down = hn::Neg(hn::Mul(t, hn::MulAdd(constant(4.0f / 9), t, hn::Add(near, near))));
+    const Vec weight_slope = hn::IfThenElseZero(
+        hn::Gt(weight, zero), hn::Sub(hn::Mul(fade_slope(rise), constant(c.rise_scale)),
+                                      hn::Mul(fade_slope(fall), constant(c.fall_scale))));
+    const Vec weighted = hn::Mul(weight, down);
+    const Vec along = hn::MulAdd(g, weight_slope, hn::Mul(weighted, slope.along));
+    const Vec across = hn::Mul(weighted, slope.across);
+    sum.gx = hn::Add(sum.gx, hn::MulAdd(across, q.bx, hn::Mul(along, constant(c.axis[0]))));
+    sum.gy = hn::Add(sum.gy, hn::MulAdd(across, q.by, hn::Mul(along, constant(c.axis[1]))));
+    sum.gz = hn::Add(sum.gz, hn::MulAdd(across, q.bz, hn::Mul(along, constant(c.axis[2]))));
+  }
+}
+
+// kVectors vectors of points from `i` on, so that each cone's numbers are loaded once for all of them.
+template <bool kGradients, int kVectors>
+HWY_INLINE void sum_block(std::span<const LocalCone> cones, const PointBatch& p, std::size_t i,
+                          const FieldColumns& out) {
+  const Tag d;
+  Vec x[kVectors], y[kVectors], z[kVectors];
+  Accumulator sum[kVectors];
+  for (int k = 0; k < kVectors; ++k) {
+    const std::size_t at = i + static_cast<std::size_t>(k) * kLanes;
+    x[k] = hn::LoadU(d, p.at[0] + at);
+    y[k] = hn::LoadU(d, p.at[1] + at);
+    z[k] = hn::LoadU(d, p.at[2] + at);
+    sum[k] = {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+  }
+  for (const LocalCone& c : cones) {
+    if (c.kind == ConeKind::kFaded) {
+      for (int k = 0; k < kVectors; ++k) add_faded<kGradients>(c, x[k], y[k], z[k], sum[k]);
+    } else if (c.kind == ConeKind::kPlain) {
+      for (int k = 0; k < kVectors; ++k) add_plain<kGradients, true>(c, x[k], y[k], z[k], sum[k]);
+    } else {
+      for (int k = 0; k < kVectors; ++k) add_plain<kGradients, false>(c, x[k], y[k], z[k], sum[k]);
+    }
+  }
+  for (int k = 0; k < kVectors; ++k) {
+    const std::size_t at = i + static_cast<std::size_t>(k) * kLanes;
+    hn::StoreU(sum[k].f, d, out.f + at);
+    if constexpr (kGradients) {
+      hn::StoreU(sum[k].gx, d, out.gradient[0] + at);
+      hn::StoreU(sum[k].gy, d, out.gradient[1] + at);
+      hn::StoreU(sum[k].gz, d, out.gradient[2] + at);
+    }
+  }
+}
+
+template <bool kGradients>
+void sum_all(std::span<const LocalCone> cones, const PointBatch& p, const FieldColumns& out) {
+  constexpr int kVectors = kGradients ? 1 : 2;
+  std::size_t i = 0;
+  for (; i + kVectors * kLanes <= p.size; i += kVectors * kLanes) sum_block<kGradients, kVectors>(cones, p, i, out);
+  for (; i < p.size; i += kLanes) sum_block<kGradients, 1>(cones, p, i, out);
+}
+
+void SumCones(std::span<const LocalCone> cones, const PointBatch& points, const FieldColumns& out) {
+  out.has_gradient() ? sum_all<true>(cones, points, out) : sum_all<false>(cones, points, out);
 }
 
 }  // namespace barkridge::HWY_NAMESPACE
@@ -159,16 +271,27 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace barkridge {
 
-HWY_EXPORT(EvaluateCone);
-HWY_EXPORT(EvaluateFadedCone);
+HWY_EXPORT(SumCones);
 
-void evaluate_cone(const FieldProgramData::ConeData& cone, const PointBatch& points, const FieldColumns& out) {
-  HWY_DYNAMIC_DISPATCH(EvaluateCone)(cone, points, out);
+void sum_cones(std::span<const LocalCone> cones, const PointBatch& points, const FieldColumns& out) {
+  HWY_DYNAMIC_DISPATCH(SumCones)(cones, points, out);
 }
 
-void evaluate_faded_cone(const FieldProgramData::FadedConeData& cone, const PointBatch& points,
-                         const FieldColumns& out) {
-  HWY_DYNAMIC_DISPATCH(EvaluateFadedCone)(cone, points, out);
+LocalCone local_cone(const ConeRecord& record, ConeKind kind, const Vec3& origin, double scale) {
+  const Vec3 base = scale * (record.base - origin);
+  return {{static_cast<float>(base.x), static_cast<float>(base.y), static_cast<float>(base.z)},
+          {record.axis.x, record.axis.y, record.axis.z},
+          record.base_radius,
+          record.tip_radius(),
+          record.taper,
+          record.length,
+          record.rise_start,
+          record.rise_scale,
+          record.fall_start,
+          record.fall_scale,
+          kind,
+          record.has_free_base(),
+          record.has_free_tip()};
 }
 
 }  // namespace barkridge

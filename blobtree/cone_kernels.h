@@ -1,36 +1,47 @@
 #pragma once
 // Cones at many points at once: the innermost loops of everything, for the instruction set that the machine has.
 //
-// Every set computes the same bits: the same operations on the same doubles in the same order, none of them fused.
+// Single precision. A point's bits do not depend on its batch, nor on cones that are zero there; between instruction
+// sets they may differ by rounding, since only some fuse multiplication and addition.
 
+#include <array>
 #include <cstddef>
+#include <span>
 
-#include "blobtree/field_program.h"
+#include "blobtree/cone_record.h"
 
 namespace barkridge {
 
-/// Kernels run over whole vectors, so every column has room for a multiple of this many numbers, whatever the number of
-/// points. What stands in the rest does not matter.
-inline constexpr std::size_t kBatchGranule = 8;
+/// Batches are padded to a multiple of so many points. What stands in the rest does not matter.
+inline constexpr std::size_t kBatchGranule = 16;
 
-/// Points in columns.
+/// Points relative to an origin, in units of the model.
 struct PointBatch {
-  const double* x;
-  const double* y;
-  const double* z;
-  std::size_t size;
+  Vec3 origin{0};  ///< in scene units
+  std::array<float*, 3> at{};
+  std::size_t size = 0;  ///< a multiple of kBatchGranule
 };
 
-/// A field at a batch of points: its values, and its gradients' coordinates where they are wanted.
+/// A field at a batch of points: its values, and its gradients' coordinates per unit of the model where they are
+/// wanted, else null.
 struct FieldColumns {
-  double* f;
-  double* gx;  ///< null when no gradients are wanted
-  double* gy;
-  double* gz;
+  float* f = nullptr;
+  std::array<float*, 3> gradient{};
+
+  bool has_gradient() const { return gradient[0] != nullptr; }
 };
 
-void evaluate_cone(const FieldProgramData::ConeData& cone, const PointBatch& points, const FieldColumns& out);
-void evaluate_faded_cone(const FieldProgramData::FadedConeData& cone, const PointBatch& points,
-                         const FieldColumns& out);
+/// A cone relative to a batch's origin, with all that its formula needs of it.
+struct LocalCone {
+  std::array<float, 3> base, axis;
+  float base_radius, tip_radius, taper, length;
+  float rise_start, rise_scale, fall_start, fall_scale;
+  ConeKind kind;
+  bool free_base, free_tip;
+};
+LocalCone local_cone(const ConeRecord& record, ConeKind kind, const Vec3& origin, double scale);
+
+/// The sum of the cones' fields, in their order, written to `out`.
+void sum_cones(std::span<const LocalCone> cones, const PointBatch& points, const FieldColumns& out);
 
 }  // namespace barkridge

@@ -38,6 +38,10 @@ class Field {
   virtual void values_and_gradients(std::span<const Vec3> points, std::span<double> values,
                                     std::span<Vec3> gradients) const = 0;
 
+  /// F at points along a ray at equal distances, from `range.lo` to `range.hi`: at least two. To rounding the values at
+  /// those points; much faster than point by point.
+  virtual void values_along(const Ray& ray, const Interval& range, std::span<double> values) const;
+
   /// Bounds over a non-empty box: conservative, and converging to the point's value as the box shrinks.
   virtual FieldBounds bounds(const Box& box) const = 0;
 

@@ -1,26 +1,25 @@
 #pragma once
-// A model as a short program for a stack machine. One walk over it evaluates a batch of points, bounds a box, or writes
-// the program that is left of it on a box; the three read alike.
+// What matters of a model in some region, as a short program for a stack machine. One walk over it evaluates a batch of
+// points, another bounds a box and writes the program that is left of it there; the two read alike.
 
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <variant>
 #include <vector>
 
+#include "blobtree/cone_record.h"
 #include "blobtree/field.h"
-#include "blobtree/primitive.h"
-#include "blobtree/warp.h"
 
 namespace barkridge {
+
+struct FieldModel;
 
 struct FieldInstruction {
   enum class Op : std::uint8_t {
     // These push a field.
     kZero,
-    kCone,       // index: cones
-    kFadedCone,  // index: faded_cones
-    kOther,      // index: others
+    kCones,  // the sum of `count` cones from `index` on in the program's list
+    kOther,  // index: the model's other primitives
     // This changes the top.
     kNegate,
     // These replace the top `count` fields by one, in the order in which they were pushed.
@@ -41,34 +40,12 @@ struct FieldInstruction {
   bool operator==(const FieldInstruction&) const = default;
 };
 
-/// What the instructions of a model and of all its restrictions refer to. Immutable and shared.
-struct FieldProgramData {
-  struct ConeData {
-    Cone cone;
-    Vec3 axis;  ///< unit; anything for a sphere, whose length is 0
-    double length, taper;
-    Box support;
-  };
-  struct FadedConeData {
-    FadedCone cone;
-    FadedConeFrame frame;
-    Box support;
-  };
-  struct OtherData {
-    std::variant<Disc, Ring, Polygon> primitive;
-    Box support;
-  };
-  std::vector<ConeData> cones;
-  std::vector<FadedConeData> faded_cones;
-  std::vector<OtherData> others;
-  std::vector<double> exponents;
-  std::vector<ContactShape> contacts;
-  std::vector<Warp> warps;
-};
+/// A cone of the model and how to evaluate it.
+struct ConeReference {
+  std::uint32_t cone : 30;
+  std::uint32_t kind : 2;
 
-struct FieldProgram {
-  std::shared_ptr<const FieldProgramData> data;
-  std::vector<FieldInstruction> code;  ///< leaves one field on the stack; empty for the zero field
+  ConeReference(std::uint32_t number, ConeKind how) : cone(number), kind(static_cast<std::uint32_t>(how)) {}
 };
 
 /// Largest numbers of fields and of sets of points that a program holds at once.
@@ -76,18 +53,33 @@ struct FieldProgramDepth {
   std::size_t fields = 0;
   std::size_t warps = 0;
 };
+
+struct FieldProgram {
+  std::vector<FieldInstruction> code;  ///< leaves one field on the stack; empty for the zero field
+  std::vector<ConeReference> cones;
+
+  void clear() {
+    code.clear();
+    cones.clear();
+  }
+};
+
 FieldProgramDepth depth_of(const FieldProgram& program);
 
-/// Writes the program of a checked tree. Operands that need a deep stack come first, so that a skeleton's tree of N
-/// internodes needs a stack of about log N however long its axes are.
-FieldProgram compile_program(const BlobTree& tree);
+/// The number of its primitives.
+std::size_t primitive_count_of(const FieldProgram& program);
 
-/// Evaluates all points of a span. `gradients` is empty or as long as `points`.
-void evaluate(const FieldProgram& program, const FieldProgramDepth& depth, std::span<const Vec3> points,
+/// Evaluates all points of a span. `gradients` is empty or as long as `points`. Single precision about the nearest of a
+/// grid of origins (`ModelUnits`): a point's bits depend on the point only.
+void evaluate(const FieldModel& model, const FieldProgram& program, std::span<const Vec3> points,
               std::span<double> values, std::span<Vec3> gradients);
+
+/// Evaluates points at equal distances along a part of a ray, its ends among them; single precision about its middle.
+void evaluate_along(const FieldModel& model, const FieldProgram& program, const Ray& ray, const Interval& range,
+                    std::span<double> values);
 
 /// Bounds on a box; and, where `rest` is given, the program of all that can matter there, whose values and gradients in
 /// the box are those of `program` to the bit.
-FieldBounds bound(const FieldProgram& program, const Box& box, std::vector<FieldInstruction>* rest = nullptr);
+FieldBounds bound(const FieldModel& model, const FieldProgram& program, const Box& box, FieldProgram* rest = nullptr);
 
 }  // namespace barkridge

@@ -1,7 +1,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "blobtree/field_program.h"
+#include "blobtree/contact.h"
+#include "blobtree/field_model.h"
 #include "blobtree/operator_bounds.h"
 #include "blobtree/primitive_bounds.h"
 
@@ -12,7 +13,7 @@ namespace {
 using Op = FieldInstruction::Op;
 
 // A field on the stack: its bounds, and where its code starts in the program being written. A field that is zero on the
-// box is not live and has no code.
+// box is not live and has no code. Cones that lose their code stay in the list, unused.
 struct Operand {
   FieldBounds bounds;
   std::size_t start = 0;
@@ -37,10 +38,11 @@ struct Scratch {
 
 class Bounder {
  public:
-  Bounder(const FieldProgramData& data, const Box& box, std::vector<FieldInstruction>& rest, Scratch& scratch)
-      : data_(data),
+  Bounder(const FieldModel& model, const Box& box, FieldProgram& rest, Scratch& scratch)
+      : model_(model),
         box_(box),
-        rest_(rest),
+        rest_(rest.code),
+        cones_(rest.cones),
         stack_(scratch.stack),
         warps_(scratch.warps),
         operands_(scratch.operands),
@@ -49,33 +51,26 @@ class Bounder {
     warps_.clear();
   }
 
-  FieldBounds run(std::span<const FieldInstruction> code) {
-    for (const FieldInstruction& instruction : code) step(instruction);
+  FieldBounds run(const FieldProgram& program) {
+    for (const FieldInstruction& instruction : program.code) step(instruction, program);
     return stack_.empty() ? FieldBounds{} : stack_.back().bounds;
   }
 
  private:
-  void step(const FieldInstruction& instruction) {
+  void step(const FieldInstruction& instruction, const FieldProgram& program) {
     switch (instruction.op) {
       case Op::kZero:
         push(instruction, {}, true);
         break;
-      case Op::kCone: {
-        const auto& data = data_.cones[instruction.index];
-        push_primitive(instruction, data.support, [&](const Box& part) { return bounds_of(data.cone, part); });
+      case Op::kCones:
+        push_cones(std::span(program.cones).subspan(instruction.index, instruction.count));
         break;
-      }
-      case Op::kFadedCone: {
-        const auto& data = data_.faded_cones[instruction.index];
-        push_primitive(instruction, data.support,
-                       [&](const Box& part) { return bounds_of(data.cone, data.frame, part); });
-        break;
-      }
       case Op::kOther: {
-        const auto& data = data_.others[instruction.index];
-        push_primitive(instruction, data.support, [&](const Box& part) {
-          return std::visit([&](const auto& primitive) { return bounds_of(primitive, part); }, data.primitive);
+        const FieldModel::Other& other = model_.others[instruction.index];
+        const FieldBounds bounds = bounds_where_supported(other.support, box_, [&](const Box& part) {
+          return std::visit([&](const auto& shape) { return bounds_of(shape, part); }, other.shape);
         });
+        push(instruction, bounds, !is_zero(bounds));
         break;
       }
       case Op::kNegate:
@@ -105,7 +100,7 @@ class Bounder {
         keep_live_or_zero(instruction.count);
         // A child too weak to deform the others, and never the highest, does nothing.
         const double lowest = highest_lower_bound();
-        const double weakest = kIsoValue - data_.contacts[instruction.index].width;
+        const double weakest = kIsoValue - model_.contacts[instruction.index].width;
         drop_if([&](const FieldBounds& b) { return b.value.hi < lowest && b.value.hi <= weakest; });
         finish(instruction);
         break;
@@ -119,10 +114,20 @@ class Bounder {
     }
   }
 
-  template <typename OfPart>
-  void push_primitive(const FieldInstruction& instruction, const Box& support, OfPart of_part) {
-    const FieldBounds bounds = bounds_where_supported(support, box_, of_part);
-    push(instruction, bounds, !is_zero(bounds));
+  void push_cones(std::span<const ConeReference> cones) {
+    FieldBounds sum;
+    const std::size_t first = cones_.size();
+    for (const ConeReference& reference : cones) {
+      const auto kind = static_cast<ConeKind>(reference.kind);
+      const ConeBounds bounds = bounds_of(model_.cones[reference.cone], kind, model_.units, box_);
+      if (is_zero(bounds.field)) continue;
+      sum.value.lo += bounds.field.value.lo;
+      sum.value.hi += bounds.field.value.hi;
+      sum.slope += bounds.field.slope;
+      cones_.emplace_back(reference.cone, bounds.steady ? ConeKind::kSteady : kind);
+    }
+    const std::size_t count = cones_.size() - first;
+    push({Op::kCones, static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(first)}, sum, count > 0);
   }
 
   void push(const FieldInstruction& instruction, const FieldBounds& bounds, bool live) {
@@ -138,7 +143,7 @@ class Bounder {
   }
 
   void enter(const FieldInstruction& instruction) {
-    const WarpedBox warped = data_.warps[instruction.index].map(box_);
+    const WarpedBox warped = model_.warps[instruction.index].map(box_);
     warps_.push_back({box_, warped.stretch, rest_.size()});
     rest_.push_back(instruction);
     box_ = warped.box;
@@ -225,7 +230,7 @@ class Bounder {
       case Op::kSum:
         return bounds_of(Sum{}, children_);
       case Op::kRicci:
-        return bounds_of(Ricci{data_.exponents[instruction.index]}, children_);
+        return bounds_of(Ricci{model_.exponents[instruction.index]}, children_);
       case Op::kUnion:
         return bounds_of(Union{}, children_);
       case Op::kIntersection:
@@ -233,7 +238,7 @@ class Bounder {
       case Op::kDifference:
         return bounds_of(Difference{}, children_);
       case Op::kContact:
-        return bounds_of(Contact{data_.contacts[instruction.index]}, children_);
+        return bounds_of(Contact{model_.contacts[instruction.index]}, children_);
       default:
         return {};
     }
@@ -266,9 +271,10 @@ class Bounder {
     finish(instruction);
   }
 
-  const FieldProgramData& data_;
+  const FieldModel& model_;
   Box box_;
   std::vector<FieldInstruction>& rest_;
+  std::vector<ConeReference>& cones_;
   std::vector<Operand>& stack_;
   std::vector<OpenWarp>& warps_;
   std::vector<Operand>& operands_;
@@ -278,12 +284,12 @@ class Bounder {
 
 }  // namespace
 
-FieldBounds bound(const FieldProgram& program, const Box& box, std::vector<FieldInstruction>* rest) {
+FieldBounds bound(const FieldModel& model, const FieldProgram& program, const Box& box, FieldProgram* rest) {
   thread_local Scratch scratch;
-  thread_local std::vector<FieldInstruction> discarded;
-  std::vector<FieldInstruction>& out = rest ? *rest : discarded;
+  thread_local FieldProgram discarded;
+  FieldProgram& out = rest ? *rest : discarded;
   out.clear();
-  return Bounder(*program.data, box, out, scratch).run(program.code);
+  return Bounder(model, box, out, scratch).run(program);
 }
 
 }  // namespace barkridge

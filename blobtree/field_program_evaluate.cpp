@@ -1,11 +1,12 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 
-#include "blobtree/cone_kernels.h"
-#include "blobtree/contact.h"
-#include "blobtree/field_program.h"
+#include <hwy/aligned_allocator.h>
+
+#include <glm/common.hpp>
+
+#include "blobtree/operator_kernels.h"
+#include "blobtree/primitive.h"
 
 namespace barkridge {
 
@@ -13,274 +14,305 @@ namespace {
 
 using Op = FieldInstruction::Op;
 
-template <bool kGradients>
-void evaluate_other(const FieldProgramData::OtherData& other, const PointBatch& p, const FieldColumns& out) {
-  for (std::size_t i = 0; i < p.size; ++i) {
-    const Vec3 point(p.x[i], p.y[i], p.z[i]);
-    const FieldSample at = std::visit([&](const auto& primitive) { return sample(primitive, point); }, other.primitive);
-    out.f[i] = at.value;
-    if constexpr (kGradients) {
-      out.gx[i] = at.gradient.x;
-      out.gy[i] = at.gradient.y;
-      out.gz[i] = at.gradient.z;
-    }
-  }
-}
-
-// What an operator makes of its operands at one point: its value, and the weight of each operand's gradient in its own.
-double combine(const FieldInstruction& instruction, const FieldProgramData& data, std::span<const double> f,
-               double* weights) {
-  const std::size_t count = f.size();
-  std::fill_n(weights, count, 0.0);
-  switch (instruction.op) {
-    case Op::kSum: {
-      double sum = 0;
-      for (std::size_t k = 0; k < count; ++k) {
-        sum += f[k];
-        weights[k] = 1;
-      }
-      return sum;
-    }
-    case Op::kRicci: {
-      const double n = data.exponents[instruction.index];
-      double powers = 0;
-      for (const double value : f) powers += std::pow(std::max(0.0, value), n);
-      if (powers <= 0) return 0;
-      const double result = std::pow(powers, 1 / n);
-      for (std::size_t k = 0; k < count; ++k) weights[k] = std::pow(std::max(0.0, f[k]) / result, n - 1);
-      return result;
-    }
-    case Op::kUnion:
-    case Op::kIntersection: {
-      const auto best =
-          instruction.op == Op::kUnion ? std::max_element(f.begin(), f.end()) : std::min_element(f.begin(), f.end());
-      weights[best - f.begin()] = 1;
-      return *best;
-    }
-    case Op::kDifference: {
-      const double a = f[0], b = f[1];
-      const double excess = std::max(0.0, a - 2 * kIsoValue);
-      const double ramp = std::max(0.0, 1 - b / kIsoValue);
-      const double complement = std::max(0.0, 2 * kIsoValue - b) + ramp * excess;
-      if (b <= 0 || a <= complement) {
-        weights[0] = 1;
-        return a;
-      }
-      weights[0] = excess > 0 ? ramp : 0.0;
-      weights[1] = (b < 2 * kIsoValue ? -1.0 : 0.0) - (ramp > 0 ? excess / kIsoValue : 0.0);
-      return complement;
-    }
-    case Op::kContact: {
-      const ContactShape& shape = data.contacts[instruction.index];
-      const std::size_t highest = static_cast<std::size_t>(std::max_element(f.begin(), f.end()) - f.begin());
-      double compression = 0, expansion = 0, pressing = 0;
-      std::size_t pressed_by = 0;
-      for (std::size_t k = 0; k < count; ++k) {
-        if (k == highest) continue;
-        weights[k] = contact_effect_slope(shape, f[k]);
-        if (f[k] >= kIsoValue) {
-          compression += f[k] - kIsoValue;
-          pressing = f[k];
-          ++pressed_by;
-        } else {
-          expansion += contact_expansion(shape, kIsoValue - f[k]);
-        }
-      }
-      weights[highest] = 1;
-      if (pressed_by == 0) return f[highest] + expansion;
-      // Written so that two in contact never fall below the iso-value by rounding.
-      const double pressed =
-          pressed_by == 1 ? kIsoValue + (f[highest] - pressing) : std::max(kIsoValue, f[highest] - compression);
-      if (pressed_by > 1 && f[highest] - compression < kIsoValue) {
-        for (std::size_t k = 0; k < count; ++k) {
-          if (f[k] >= kIsoValue) weights[k] = 0;
-        }
-      }
-      return pressed + expansion;
-    }
-    default:
-      return 0;
-  }
-}
+std::size_t padded(std::size_t count) { return (count + kBatchGranule - 1) / kBatchGranule * kBatchGranule; }
 
 // Memory for one thread's evaluations, kept between calls.
 struct Scratch {
-  std::vector<double> numbers;
-  std::vector<double> operands;
-  std::vector<std::size_t> warps;
+  hwy::AlignedFreeUniquePtr<float[]> numbers;
+  std::size_t capacity = 0;
+  std::vector<LocalCone> cones;
+  std::vector<FieldColumns> fields;
+  std::vector<Vec3> origins;
+
+  float* take(std::size_t count) {
+    if (count > capacity) {
+      numbers = hwy::AllocateAligned<float>(count);
+      capacity = count;
+    }
+    return numbers.get();
+  }
 };
 
-template <bool kGradients>
+Scratch& scratch_of_thread() {
+  thread_local Scratch scratch;
+  return scratch;
+}
+
+// Runs a program on batches of up to `capacity` points.
 class Machine {
  public:
-  static constexpr std::size_t kColumns = kGradients ? 4 : 1;
-
-  Machine(const FieldProgram& program, const FieldProgramDepth& depth, std::size_t batch, Scratch& scratch)
-      : program_(program), batch_(batch), scratch_(scratch) {
-    scratch.numbers.resize(batch * (3 * (depth.warps + 1) + kColumns * depth.fields));
-    scratch.operands.resize(2 * depth.fields + 2);
-    fields_ = scratch.numbers.data() + 3 * batch * (depth.warps + 1);
+  Machine(const FieldModel& model, const FieldProgram& program, std::size_t capacity, bool gradients, Scratch& scratch)
+      : model_(model), program_(program), gradients_(gradients), capacity_(capacity), scratch_(scratch) {
+    const FieldProgramDepth depth = depth_of(program);
+    numbers_ = scratch.take(capacity * (3 * (depth.warps + 1) + columns() * depth.fields));
+    fields_ = numbers_ + 3 * capacity * (depth.warps + 1);
+    scratch.origins.resize(depth.warps + 1);
+    scratch.fields.resize(depth.fields);
+    for (std::size_t level = 0; level < depth.fields; ++level) scratch.fields[level] = slot(level);
   }
 
-  double* point_column(std::size_t level, std::size_t axis) {
-    return scratch_.numbers.data() + (3 * level + axis) * batch_;
-  }
-  FieldColumns slot(std::size_t level) {
-    double* start = fields_ + kColumns * batch_ * level;
-    if constexpr (kGradients) return {start, start + batch_, start + 2 * batch_, start + 3 * batch_};
-    return {start, nullptr, nullptr, nullptr};
-  }
+  float* point_column(std::size_t axis, std::size_t level = 0) { return numbers_ + (3 * level + axis) * capacity_; }
+  const FieldColumns& result() const { return scratch_.fields[0]; }
 
-  /// Runs the program on the first `size` points of level 0; the result is in slot 0.
-  void run(std::size_t size) {
+  /// Runs the program on the first `size` points, relative to an origin, in units of the model.
+  void run(const Vec3& origin, std::size_t size) {
+    const std::size_t whole = padded(size);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      std::fill(point_column(axis) + size, point_column(axis) + whole, 0.0f);
+    }
     std::size_t top = 0, level = 0;
-    PointBatch points = points_at(0, size);
-    const FieldProgramData& data = *program_.data;
+    scratch_.origins[0] = origin;
+    PointBatch points = points_at(0, whole);
+    std::vector<FieldColumns>& fields = scratch_.fields;
     for (const FieldInstruction& instruction : program_.code) {
       switch (instruction.op) {
         case Op::kZero:
-          clear(slot(top++), size);
+          clear(fields[top++], whole);
           break;
-        case Op::kCone:
-          evaluate_cone(data.cones[instruction.index], points, slot(top++));
-          break;
-        case Op::kFadedCone:
-          evaluate_faded_cone(data.faded_cones[instruction.index], points, slot(top++));
+        case Op::kCones:
+          evaluate_cones(instruction, points, fields[top++]);
           break;
         case Op::kOther:
-          evaluate_other<kGradients>(data.others[instruction.index], points, slot(top++));
+          evaluate_other(model_.others[instruction.index], points, fields[top++]);
           break;
         case Op::kNegate:
-          negate(slot(top - 1), size);
+          negate(fields[top - 1], whole);
           break;
         case Op::kEnterWarp:
-          enter(data.warps[instruction.index], level, size);
-          points = points_at(++level, size);
+          enter(model_.warps[instruction.index], points, level);
+          points = points_at(++level, whole);
           break;
         case Op::kLeaveWarp:
-          points = points_at(--level, size);
-          if constexpr (kGradients) leave(data.warps[instruction.index], points, slot(top - 1));
-          break;
-        case Op::kSum:
-          top -= instruction.count;
-          for (std::size_t k = 1; k < instruction.count; ++k) add(slot(top), slot(top + k), size);
-          ++top;
+          points = points_at(--level, whole);
+          if (gradients_) leave(model_.warps[instruction.index], points, fields[top - 1]);
           break;
         default:
           top -= instruction.count;
-          apply(instruction, top, size);
+          apply_operator(instruction, model_, std::span(fields).subspan(top, instruction.count), whole);
           ++top;
       }
     }
   }
 
  private:
+  std::size_t columns() const { return gradients_ ? 4 : 1; }
+
+  FieldColumns slot(std::size_t level) const {
+    float* start = fields_ + columns() * capacity_ * level;
+    if (!gradients_) return {start, {}};
+    return {start, {start + capacity_, start + 2 * capacity_, start + 3 * capacity_}};
+  }
+
   PointBatch points_at(std::size_t level, std::size_t size) {
-    return {point_column(level, 0), point_column(level, 1), point_column(level, 2), size};
+    return {scratch_.origins[level], {point_column(0, level), point_column(1, level), point_column(2, level)}, size};
   }
 
-  static std::array<double*, 4> columns(const FieldColumns& s) { return {s.f, s.gx, s.gy, s.gz}; }
-
-  void clear(const FieldColumns& s, std::size_t size) {
-    for (std::size_t c = 0; c < kColumns; ++c) std::fill_n(columns(s)[c], size, 0.0);
+  template <typename Change>
+  void for_each_number(const FieldColumns& field, std::size_t size, Change change) const {
+    std::for_each_n(field.f, size, change);
+    if (!gradients_) return;
+    for (float* column : field.gradient) std::for_each_n(column, size, change);
   }
-  void negate(const FieldColumns& s, std::size_t size) {
-    for (std::size_t c = 0; c < kColumns; ++c) {
-      double* column = columns(s)[c];
-      for (std::size_t i = 0; i < size; ++i) column[i] = -column[i];
-    }
+  void clear(const FieldColumns& field, std::size_t size) const {
+    for_each_number(field, size, [](float& x) { x = 0; });
   }
-  void add(const FieldColumns& to, const FieldColumns& from, std::size_t size) {
-    for (std::size_t c = 0; c < kColumns; ++c) {
-      double* sum = columns(to)[c];
-      const double* summand = columns(from)[c];
-      for (std::size_t i = 0; i < size; ++i) sum[i] += summand[i];
-    }
+  void negate(const FieldColumns& field, std::size_t size) const {
+    for_each_number(field, size, [](float& x) { x = -x; });
   }
 
-  void enter(const Warp& warp, std::size_t level, std::size_t size) {
-    for (std::size_t i = 0; i < size; ++i) {
-      const Vec3 q = warp.map(Vec3(point_column(level, 0)[i], point_column(level, 1)[i], point_column(level, 2)[i]));
-      for (int axis = 0; axis < 3; ++axis) point_column(level + 1, static_cast<std::size_t>(axis))[i] = q[axis];
+  void evaluate_cones(const FieldInstruction& instruction, const PointBatch& points, const FieldColumns& out) {
+    std::vector<LocalCone>& cones = scratch_.cones;
+    cones.clear();
+    for (const ConeReference& reference : std::span(program_.cones).subspan(instruction.index, instruction.count)) {
+      cones.push_back(local_cone(model_.cones[reference.cone], static_cast<ConeKind>(reference.kind), points.origin,
+                                 model_.units.scale));
     }
+    sum_cones(cones, points, out);
   }
-  void leave(const Warp& warp, const PointBatch& points, const FieldColumns& s) {
-    for (std::size_t i = 0; i < points.size; ++i) {
-      const Mat3 jacobian = warp.map_with_jacobian({points.x[i], points.y[i], points.z[i]}).jacobian;
-      const Vec3 gradient = Vec3(s.gx[i], s.gy[i], s.gz[i]) * jacobian;  // transposed Jacobian times gradient
-      s.gx[i] = gradient.x;
-      s.gy[i] = gradient.y;
-      s.gz[i] = gradient.z;
+
+  Vec3 place(const PointBatch& p, std::size_t i) const {
+    return p.origin + Vec3(p.at[0][i], p.at[1][i], p.at[2][i]) / model_.units.scale;
+  }
+
+  void evaluate_other(const FieldModel::Other& other, const PointBatch& p, const FieldColumns& out) const {
+    for (std::size_t i = 0; i < p.size; ++i) {
+      const FieldSample at = std::visit([&](const auto& shape) { return sample(shape, place(p, i)); }, other.shape);
+      out.f[i] = static_cast<float>(at.value);
+      if (gradients_) store_gradient(at.gradient / model_.units.scale, out, i);
     }
   }
 
-  void apply(const FieldInstruction& instruction, std::size_t first, std::size_t size) {
-    const std::size_t count = instruction.count;
-    double* operands = scratch_.operands.data();
-    double* weights = operands + count;
-    for (std::size_t i = 0; i < size; ++i) {
-      for (std::size_t k = 0; k < count; ++k) operands[k] = slot(first + k).f[i];
-      slot(first).f[i] = combine(instruction, *program_.data, {operands, count}, weights);
-      if constexpr (kGradients) {
-        for (std::size_t c = 1; c < kColumns; ++c) {
-          double sum = 0;
-          for (std::size_t k = 0; k < count; ++k) {
-            // An operand of no weight must not count even where its gradient is not finite.
-            if (weights[k] != 0) sum += weights[k] * columns(slot(first + k))[c][i];
-          }
-          columns(slot(first))[c][i] = sum;
-        }
+  static void store_gradient(const Vec3& gradient, const FieldColumns& out, std::size_t i) {
+    for (int axis = 0; axis < 3; ++axis) out.gradient[axis][i] = static_cast<float>(gradient[axis]);
+  }
+
+  void enter(const Warp& warp, const PointBatch& p, std::size_t level) {
+    const Vec3 origin = warp.map(p.origin);
+    scratch_.origins[level + 1] = origin;
+    for (std::size_t i = 0; i < p.size; ++i) {
+      const Vec3 q = model_.units.scale * (warp.map(place(p, i)) - origin);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        point_column(axis, level + 1)[i] = static_cast<float>(q[static_cast<int>(axis)]);
       }
     }
   }
+  void leave(const Warp& warp, const PointBatch& p, const FieldColumns& field) const {
+    for (std::size_t i = 0; i < p.size; ++i) {
+      const Mat3 jacobian = warp.map_with_jacobian(place(p, i)).jacobian;
+      const Vec3 gradient(field.gradient[0][i], field.gradient[1][i], field.gradient[2][i]);
+      store_gradient(gradient * jacobian, field, i);  // transposed Jacobian times gradient
+    }
+  }
 
+  const FieldModel& model_;
   const FieldProgram& program_;
-  std::size_t batch_;
+  bool gradients_;
+  std::size_t capacity_;
   Scratch& scratch_;
-  double* fields_;
+  float* numbers_;
+  float* fields_;
 };
 
-template <bool kGradients>
-void evaluate_all(const FieldProgram& program, const FieldProgramDepth& depth, std::span<const Vec3> points,
-                  std::span<double> values, std::span<Vec3> gradients) {
-  // As many points at once as fill the inner caches, fewer where the stack is deep.
-  constexpr std::size_t kLargestBatch = 64;
-  constexpr std::size_t kScratchNumbers = std::size_t{1} << 22;
-  const std::size_t columns = 3 * (depth.warps + 1) + Machine<kGradients>::kColumns * depth.fields;
-  const std::size_t fitting =
-      std::clamp<std::size_t>(kScratchNumbers / columns, 1, std::min(kLargestBatch, points.size()));
-  const std::size_t batch = (fitting + kBatchGranule - 1) / kBatchGranule * kBatchGranule;
-  thread_local Scratch scratch;
-  Machine<kGradients> machine(program, depth, batch, scratch);
-  for (std::size_t start = 0; start < points.size(); start += batch) {
-    const std::size_t size = std::min(batch, points.size() - start);
-    for (std::size_t i = 0; i < size; ++i) {
-      for (int axis = 0; axis < 3; ++axis) {
-        machine.point_column(0, static_cast<std::size_t>(axis))[i] = points[start + i][axis];
-      }
+// The grid point next to a point, about which it is evaluated.
+Vec3 origin_of(const Vec3& p, double spacing) { return spacing * glm::floor(p / spacing + 0.5); }
+
+// The points of a batch by their origins. Nearly always there is but one.
+class OriginGroups {
+ public:
+  OriginGroups(std::span<const Vec3> points, double spacing) : points_(points), spacing_(spacing) {
+    Box box;
+    for (const Vec3& p : points) box = unite(box, p);
+    is_single_ = origin_of(box.lo, spacing) == origin_of(box.hi, spacing);
+  }
+
+  // Calls `evaluate(origin, indices)` for each group; no indices stand for all points.
+  template <typename Evaluate>
+  void for_each(Evaluate evaluate) const {
+    if (is_single_) {
+      evaluate(origin_of(points_.front(), spacing_), std::span<const std::uint32_t>());
+      return;
     }
-    machine.run(size);
-    const FieldColumns result = machine.slot(0);
-    for (std::size_t i = 0; i < size; ++i) {
-      values[start + i] = result.f[i];
-      if constexpr (kGradients) gradients[start + i] = {result.gx[i], result.gy[i], result.gz[i]};
+    std::vector<std::uint32_t> left(points_.size()), group, others;
+    for (std::uint32_t i = 0; i < left.size(); ++i) left[i] = i;
+    while (!left.empty()) {
+      const Vec3 origin = origin_of(points_[left.front()], spacing_);
+      group.clear();
+      others.clear();
+      for (const std::uint32_t i : left) (origin_of(points_[i], spacing_) == origin ? group : others).push_back(i);
+      evaluate(origin, std::span<const std::uint32_t>(group));
+      left.swap(others);
     }
   }
+
+ private:
+  std::span<const Vec3> points_;
+  double spacing_;
+  bool is_single_;
+};
+
+// As many points at once as fit into the inner caches, fewer where the stack is deep.
+std::size_t batch_size(const FieldProgram& program, std::size_t points, bool gradients) {
+  constexpr std::size_t kLargestBatch = 768;
+  constexpr std::size_t kScratchNumbers = std::size_t{1} << 16;
+  const FieldProgramDepth depth = depth_of(program);
+  const std::size_t columns = 3 * (depth.warps + 1) + (gradients ? 4 : 1) * depth.fields;
+  return padded(std::clamp<std::size_t>(kScratchNumbers / columns, 1, std::min(kLargestBatch, points)));
 }
 
 }  // namespace
 
-void evaluate(const FieldProgram& program, const FieldProgramDepth& depth, std::span<const Vec3> points,
+FieldProgramDepth depth_of(const FieldProgram& program) {
+  std::size_t fields = 0, warps = 0;
+  FieldProgramDepth deepest;
+  for (const FieldInstruction& instruction : program.code) {
+    switch (instruction.op) {
+      case Op::kZero:
+      case Op::kCones:
+      case Op::kOther:
+        ++fields;
+        break;
+      case Op::kNegate:
+        break;
+      case Op::kEnterWarp:
+        ++warps;
+        break;
+      case Op::kLeaveWarp:
+        --warps;
+        break;
+      default:
+        fields -= instruction.count - 1;
+    }
+    deepest.fields = std::max(deepest.fields, fields);
+    deepest.warps = std::max(deepest.warps, warps);
+  }
+  return deepest;
+}
+
+std::size_t primitive_count_of(const FieldProgram& program) {
+  std::size_t count = 0;
+  for (const FieldInstruction& instruction : program.code) {
+    count += instruction.op == Op::kCones ? instruction.count : instruction.op == Op::kOther;
+  }
+  return count;
+}
+
+void evaluate(const FieldModel& model, const FieldProgram& program, std::span<const Vec3> points,
               std::span<double> values, std::span<Vec3> gradients) {
   if (points.empty()) return;
   if (program.code.empty()) {
     std::fill(values.begin(), values.end(), 0.0);
     std::fill(gradients.begin(), gradients.end(), Vec3(0));
-  } else if (gradients.empty()) {
-    evaluate_all<false>(program, depth, points, values, gradients);
-  } else {
-    evaluate_all<true>(program, depth, points, values, gradients);
+    return;
   }
+  const bool wants_gradients = !gradients.empty();
+  const std::size_t batch = batch_size(program, points.size(), wants_gradients);
+  Machine machine(model, program, batch, wants_gradients, scratch_of_thread());
+  const FieldColumns& result = machine.result();
+  const auto run = [&](const Vec3& origin, std::size_t count, auto index) {
+    for (std::size_t start = 0; start < count; start += batch) {
+      const std::size_t size = std::min(batch, count - start);
+      for (std::size_t i = 0; i < size; ++i) {
+        const Vec3 p = model.units.scale * (points[index(start + i)] - origin);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          machine.point_column(axis)[i] = static_cast<float>(p[static_cast<int>(axis)]);
+        }
+      }
+      machine.run(origin, size);
+      for (std::size_t i = 0; i < size; ++i) {
+        values[index(start + i)] = static_cast<double>(result.f[i]);
+        if (!wants_gradients) continue;
+        gradients[index(start + i)] =
+            model.units.scale * Vec3(result.gradient[0][i], result.gradient[1][i], result.gradient[2][i]);
+      }
+    }
+  };
+  OriginGroups(points, model.units.origin_spacing / model.units.scale)
+      .for_each([&](const Vec3& origin, std::span<const std::uint32_t> group) {
+        if (group.empty()) {
+          run(origin, points.size(), [](std::size_t i) { return i; });
+        } else {
+          run(origin, group.size(), [&](std::size_t i) { return group[i]; });
+        }
+      });
+}
+
+void evaluate_along(const FieldModel& model, const FieldProgram& program, const Ray& ray, const Interval& range,
+                    std::span<double> values) {
+  if (program.code.empty()) {
+    std::fill(values.begin(), values.end(), 0.0);
+    return;
+  }
+  const std::size_t count = values.size();
+  Machine machine(model, program, padded(count), false, scratch_of_thread());
+  const Vec3 direction = model.units.scale * (range.hi - range.lo) / static_cast<double>(count - 1) * ray.direction;
+  const float middle = 0.5f * static_cast<float>(count - 1);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto step = static_cast<float>(direction[static_cast<int>(axis)]);
+    float* column = machine.point_column(axis);
+    for (std::size_t i = 0; i < count; ++i) column[i] = step * (static_cast<float>(i) - middle);
+  }
+  machine.run(ray.at(0.5 * (range.lo + range.hi)), count);
+  for (std::size_t i = 0; i < count; ++i) values[i] = static_cast<double>(machine.result().f[i]);
 }
 
 }  // namespace barkridge

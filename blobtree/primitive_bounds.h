@@ -24,9 +24,11 @@ FieldBounds bounds_where_supported(const Box& support, const Box& box, OfPart of
   return bounds;
 }
 
-/// Conservative, and exact to first order in the box's size.
-FieldBounds bounds_of(const Cone& cone, const Box& box);
-FieldBounds bounds_of(const FadedCone& cone, const FadedConeFrame& frame, const Box& box);
+/// Bounds of the falloff over a box of the given half diagonal, for a normalised distance that is `u` at its centre,
+/// has at most the given slope throughout, and is off by rounding up to a share of itself.
+FieldBounds falloff_bounds(double u, double slope, double half_diagonal, double rounding);
+
+/// Conservative, and exact to first order in the box's size. Those of cones are in blobtree/cone_record.h.
 FieldBounds bounds_of(const Disc& disc, const Box& box);
 FieldBounds bounds_of(const Ring& ring, const Box& box);
 FieldBounds bounds_of(const Polygon& polygon, const Box& box);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "blobtree/cone_record.h"
 #include "blobtree/contact.h"
 #include "blobtree/operator_bounds.h"
 #include "blobtree/primitive.h"
@@ -201,8 +202,10 @@ class ReferenceField final : public Field {
       return {children[0].value, children[0].slope * boxes[tree_.nodes[id].children[0]].stretch};
     } else {
       return bounds_where_supported(supports_[id], box, [&](const Box& part) {
-        if constexpr (std::is_same_v<What, FadedCone>) {
-          return bounds_of(what, FadedConeFrame(what), part);
+        if constexpr (std::is_same_v<What, Cone>) {
+          return bounds_of(record_of(what, 1), ConeKind::kPlain, {}, part).field;
+        } else if constexpr (std::is_same_v<What, FadedCone>) {
+          return bounds_of(record_of(what, 1), ConeKind::kFaded, {}, part).field;
         } else {
           return bounds_of(what, part);
         }

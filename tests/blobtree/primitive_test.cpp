@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "blobtree/cone_record.h"
 #include "blobtree/falloff.h"
 #include "blobtree/primitive_bounds.h"
 #include "tests/support/random_source.h"
@@ -84,16 +85,16 @@ TEST_CASE("bounds of a faded cone hold for extreme tapers") {
     const FadedCone cone{
         Vec3(0), random.uniform(0.02, 2) * random.direction(),     r0,
         r1,      random.chance(0.5) ? random.uniform(0.05, 1) : 0, random.chance(0.5) ? random.uniform(0.05, 1) : 0};
-    const FadedConeFrame frame(cone);
+    const ConeRecord record = record_of(cone, 1);
     const Box support = support_of(cone);
     const Vec3 a = random.in_box({Vec3(-3), Vec3(3)});
     const Vec3 extent = std::pow(10.0, random.uniform(-3, 0.3)) * Vec3(random.unit(), random.unit(), random.unit());
     const Box box{a - extent, a + extent};
     const FieldBounds bounds =
-        bounds_where_supported(support, box, [&](const Box& part) { return bounds_of(cone, frame, part); });
+        bounds_where_supported(support, box, [&](const Box& part) { return bounds_of(record, ConeKind::kFaded, {}, part).field; });
     for (int k = 0; k < 20; ++k) {
       const FieldSample s = sample(cone, random.in_box(box));
-      CAPTURE(i, r0, r1, frame.length, cone.parent_radius, cone.child_radius);
+      CAPTURE(i, r0, r1, record.length, cone.parent_radius, cone.child_radius);
       REQUIRE(s.value <= bounds.value.hi + 1e-12);
       REQUIRE(s.value >= bounds.value.lo - 1e-12);
       REQUIRE(glm::length(s.gradient) <= bounds.slope * (1 + 1e-9) + 1e-9);

@@ -1,0 +1,41 @@
+#pragma once
+// Boxes over boxes: which primitives of a model can matter in a region.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/geometry.h"
+
+namespace barkridge {
+
+/// A hierarchy over boxes in a given order: every group of eight neighbours has a box around them, every eight groups
+/// one around those, and so on. It needs no links and finds boxes in their order; it is as good as the order is coherent
+/// in space. 27 bytes a box.
+class BoxHierarchy {
+ public:
+  BoxHierarchy() = default;
+  explicit BoxHierarchy(std::span<const Box> boxes);
+
+  /// Appends the numbers of the boxes that overlap `region`, rounded outward to floats, in rising order. Stops and
+  /// returns false as soon as there are more than `most`. Cost: in proportion to what is found, times the logarithm of
+  /// all.
+  bool find(const Box& region, std::size_t most, std::vector<std::uint32_t>& found) const;
+
+  std::size_t size() const { return size_; }
+  std::size_t memory() const;
+
+ private:
+  static constexpr std::size_t kWidth = 8;
+  // Eight boxes side by side, so that one comparison looks at all of them. Missing ones are empty.
+  struct alignas(32) Group {
+    std::array<std::array<float, kWidth>, 3> lo, hi;
+  };
+  static unsigned overlapping(const Group& group, const std::array<float, 3>& lo, const std::array<float, 3>& hi);
+
+  std::size_t size_ = 0;
+  std::vector<std::vector<Group>> levels_;  // the boxes themselves first, one group last
+};
+
+}  // namespace barkridge

@@ -1,0 +1,84 @@
+#pragma once
+// A whole model, compiled: flat primitives in an order that is coherent in space, the operators above them, and what
+// finds those that matter in a region, at a cost that does not depend on the rest.
+
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "blobtree/box_hierarchy.h"
+#include "blobtree/field_program.h"
+#include "blobtree/warp.h"
+
+namespace barkridge {
+
+inline constexpr std::uint32_t kNoOperator = ~std::uint32_t{0};
+
+/// A node above the primitives. Nested sums are one; every primitive stands in a sum.
+struct FieldOperator {
+  FieldInstruction::Op op;  ///< kEnterWarp for a warp
+  bool is_kept = false;     ///< whether it changes even a lone operand
+  std::uint8_t rank = 0;    ///< 0 if it is its parent's first operand, else 1
+  std::uint8_t kept_rank = 0;
+  std::uint32_t index = 0;          ///< as an instruction's
+  std::uint32_t operand_count = 0;  ///< of a sum: at least 1
+  std::uint32_t parent = kNoOperator;
+  std::uint32_t depth = 0;
+  /// The nearest operator above that changes even a lone operand, and the rank of what leads to it from here.
+  std::uint32_t kept_above = kNoOperator;
+};
+
+/// Finds the lowest common ancestor of primitives by a range minimum over those of neighbours.
+class AncestorTable {
+ public:
+  /// Of neighbours `i` and `i + 1`: the operator and its depth.
+  void build(std::vector<std::uint32_t> ancestors, const std::vector<FieldOperator>& operators);
+  /// The deepest operator above both primitives, `first < last`.
+  std::uint32_t common(std::uint32_t first, std::uint32_t last, const std::vector<FieldOperator>& operators) const;
+  std::size_t memory() const;
+
+ private:
+  static constexpr std::size_t kBlock = 32;
+  std::vector<std::uint32_t> ancestors_;
+  std::vector<std::vector<std::uint32_t>> highest_;  // over 2^k blocks from each block on
+};
+
+struct FieldModel {
+  struct Other {
+    std::uint32_t primitive = 0;  ///< its number among all primitives
+    std::variant<Disc, Ring, Polygon> shape;
+    Box support;
+  };
+
+  // By primitive. Of an other primitive than a cone, the record means nothing.
+  std::vector<ConeRecord> cones;
+  std::vector<ConeKind> kinds;
+  std::vector<std::uint32_t> sums;  ///< the operator that each stands in
+  BoxHierarchy supports;
+  AncestorTable ancestors;
+
+  std::vector<FieldOperator> operators;
+  std::vector<Other> others;  ///< by primitive
+  std::vector<double> exponents;
+  std::vector<ContactShape> contacts;
+  std::vector<Warp> warps;
+
+  Box support;
+  /// The scale is the power of two that brings the model's largest extent between 1/2 and 1.
+  ModelUnits units;
+  /// Enclose all values and gradients anywhere.
+  FieldBounds bounds;
+
+  const Other* other_at(std::uint32_t primitive) const;
+  std::size_t memory() const;
+};
+
+/// Compiles a checked tree. Operands that need a deep stack come first, so that the program of a skeleton's tree of N
+/// internodes needs a stack of about log N, however long its axes are. Cost: N log N.
+std::shared_ptr<const FieldModel> compile_model(const BlobTree& tree);
+
+/// Writes the program of some primitives, given in rising order: the model without all others. Cost: in proportion to
+/// the program.
+void assemble(const FieldModel& model, std::span<const std::uint32_t> primitives, FieldProgram& program);
+
+}  // namespace barkridge
