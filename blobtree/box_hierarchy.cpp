@@ -98,6 +98,12 @@ bool BoxHierarchy::find(const Box& region, std::size_t most, std::vector<std::ui
   }
 }
 
+Box BoxHierarchy::box(std::size_t number) const {
+  const Group& group = levels_[0][number / kWidth];
+  const std::size_t k = number % kWidth;
+  return {{group.lo[0][k], group.lo[1][k], group.lo[2][k]}, {group.hi[0][k], group.hi[1][k], group.hi[2][k]}};
+}
+
 std::size_t BoxHierarchy::memory() const {
   std::size_t bytes = 0;
   for (const auto& level : levels_) bytes += level.size() * sizeof(Group);

@@ -23,6 +23,8 @@ class BoxHierarchy {
   /// all.
   bool find(const Box& region, std::size_t most, std::vector<std::uint32_t>& found) const;
 
+  /// A box, rounded outward.
+  Box box(std::size_t number) const;
   std::size_t size() const { return size_; }
   std::size_t memory() const;
 

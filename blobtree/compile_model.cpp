@@ -209,7 +209,7 @@ class ModelCompiler {
     for (const NodeId id : waiting_.back()) {
       std::visit([&](const auto& what) { write_primitive(what, id); }, tree_.nodes[id].what);
       model_->sums.push_back(sum);
-      boxes_.push_back(box_in_world(supports_[id], sum));
+      boxes_.push_back(box_in_world(*model_, supports_[id], sum));
     }
     waiting_.pop_back();
   }
@@ -226,16 +226,6 @@ class ModelCompiler {
   void write_cone(const ConeRecord& record, ConeKind kind) {
     model_->cones.push_back(record);
     model_->kinds.push_back(kind);
-  }
-
-  // Where all warps above move a primitive's support.
-  Box box_in_world(Box box, std::uint32_t sum) const {
-    for (std::uint32_t at = model_->operators[sum].kept_above; at != kNoOperator;
-         at = model_->operators[at].kept_above) {
-      const FieldOperator& node = model_->operators[at];
-      if (node.op == Op::kEnterWarp) box = model_->warps[node.index].support(box);
-    }
-    return box;
   }
 
   void finish() {

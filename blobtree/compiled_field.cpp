@@ -1,6 +1,7 @@
 #include <array>
 
 #include "blobtree/field_model.h"
+#include "blobtree/ray_search.h"
 #include "blobtree/tree.h"
 
 namespace barkridge {
@@ -10,7 +11,7 @@ namespace {
 using ModelPtr = std::shared_ptr<const FieldModel>;
 
 // Up to so many primitives, a region gets a program of its own.
-constexpr std::size_t kMostAssembled = 128;
+constexpr std::size_t kMostAssembled = 256;
 
 // The numbers of the primitives that may matter in a region; nothing where there are too many.
 bool find_primitives(const FieldModel& model, const Box& region, std::vector<std::uint32_t>& found) {
@@ -23,11 +24,20 @@ std::vector<std::uint32_t>& primitive_scratch() {
   return found;
 }
 
+std::vector<Box> cover_within(const FieldModel& model, const Box& region) {
+  std::vector<Box> boxes = cover_of(model);
+  for (Box& box : boxes) box = intersect(box, region);
+  std::erase_if(boxes, [](const Box& box) { return box.empty(); });
+  return boxes;
+}
+
 // A part of a model, in a region where not too many primitives matter.
 class PartField final : public Field {
  public:
-  PartField(ModelPtr model, FieldProgram program, const Box& support)
-      : model_(std::move(model)), program_(std::move(program)), support_(program_.code.empty() ? Box{} : support) {
+  /// Writes the program's rest in `box`, and remembers the bounds there, which are asked for next.
+  PartField(ModelPtr model, const FieldProgram& program, const Box& support, const Box& box)
+      : model_(std::move(model)), box_(box), bounds_(bound(*model_, program, box, &program_)) {
+    if (!program_.code.empty()) support_ = intersect(support, box);
     program_.code.shrink_to_fit();
     program_.cones.shrink_to_fit();
   }
@@ -43,24 +53,44 @@ class PartField final : public Field {
     evaluate(*model_, program_, points, values, gradients);
   }
 
-  void values_along(const Ray& ray, const Interval& range, std::span<double> values) const override {
-    evaluate_along(*model_, program_, ray, range, values);
+  std::optional<double> first_inside(const Ray& ray, const Interval& range, double tolerance) const override {
+    return search(ray, range, tolerance, false);
   }
 
-  FieldBounds bounds(const Box& box) const override { return bound(*model_, program_, box); }
+  bool any_inside(const Ray& ray, const Interval& range, double tolerance) const override {
+    return search(ray, range, tolerance, true).has_value();
+  }
+
+  FieldBounds bounds(const Box& box) const override {
+    return box.lo == box_.lo && box.hi == box_.hi ? bounds_ : bound(*model_, program_, box);
+  }
 
   std::shared_ptr<const Field> restricted(const Box& box) const override {
-    FieldProgram rest;
-    bound(*model_, program_, box, &rest);
-    return std::make_shared<PartField>(model_, std::move(rest), intersect(support_, box));
+    return std::make_shared<PartField>(model_, program_, support_, box);
   }
+
+  std::vector<Box> cover() const override { return cover_within(*model_, support_); }
 
   std::size_t primitive_count() const override { return primitive_count_of(program_); }
 
  private:
+  // Restricted once more, to the ray: most primitives of a region are not near it.
+  std::optional<double> search(const Ray& ray, const Interval& range, double tolerance, bool any) const {
+    thread_local FieldProgram rest;
+    const RayBounds bounds = bound_along(*model_, program_, ray, range, rest);
+    const Interval reach{std::max(range.lo, bounds.reach.lo), std::min(range.hi, bounds.reach.hi)};
+    if (bounds.field.value.hi < kIsoValue || reach.empty()) return std::nullopt;
+    const auto sample = [&](const Interval& part, std::span<double> values) {
+      evaluate_along(*model_, rest, ray, part, values);
+    };
+    return RaySearch(sample, bounds.field, tolerance, any).run(reach);
+  }
+
   ModelPtr model_;
   FieldProgram program_;
   Box support_;
+  Box box_;
+  FieldBounds bounds_;
 };
 
 // The model where too many primitives matter for one program: everywhere, or in a large region.
@@ -89,14 +119,16 @@ class WholeField final : public Field {
 
   std::shared_ptr<const Field> restricted(const Box& box) const override {
     std::vector<std::uint32_t>& found = primitive_scratch();
-    const Box support = intersect(support_, box);
-    if (!find_primitives(*model_, box, found)) return std::make_shared<WholeField>(model_, support);
+    const bool is_whole = box.contains(support_.lo) && box.contains(support_.hi);
+    if (is_whole || !find_primitives(*model_, box, found)) {
+      return std::make_shared<WholeField>(model_, intersect(support_, box));
+    }
     thread_local FieldProgram program;
     assemble(*model_, found, program);
-    FieldProgram rest;
-    bound(*model_, program, box, &rest);
-    return std::make_shared<PartField>(model_, std::move(rest), support);
+    return std::make_shared<PartField>(model_, program, support_, box);
   }
+
+  std::vector<Box> cover() const override { return cover_within(*model_, support_); }
 
   std::size_t primitive_count() const override { return model_->cones.size(); }
 

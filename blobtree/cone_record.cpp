@@ -17,27 +17,17 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr double kRounding = 2e-6;
 double place_rounding(const ModelUnits& units) { return units.origin_spacing * 0x1p-22; }
 
-// A cone over the range of places that a box covers.
+// The places that a region covers.
 struct Reach {
-  double y, rho2, rho_hi;  // of the box's centre; the largest distance from the axis
-  Interval along;          // axial places
-  double half_diagonal;
+  Interval along;  // the axis
+  double rho_hi;   // the largest distance from it
 };
-
-Reach reach_of(const ConeRecord& c, const ModelUnits& units, const Box& box) {
-  const double scale = units.scale;
-  const Vec3 axis(c.axis), from_base = scale * (box.center() - c.base), half = scale * box.half_extent();
-  const double y = glm::dot(from_base, axis), y_reach = glm::dot(glm::abs(axis), half);
-  const Vec3 beside = from_base - y * axis;
-  const double rho2 = glm::dot(beside, beside), half_diagonal = glm::length(half);
-  const double rounding = kRounding * (std::abs(y) + y_reach + c.length + c.base_radius) + place_rounding(units);
-  return {y, rho2, std::sqrt(rho2) + half_diagonal, {y - y_reach - rounding, y + y_reach + rounding}, half_diagonal};
-}
 
 // What one of a faded cone's steps along its axis can be.
 struct FadeRange {
   Interval value;
   double slope = 0;
+  double second = 0;  // in size
 };
 
 FadeRange fade_range(const Interval& y, double start, double scale) {
@@ -46,7 +36,7 @@ FadeRange fade_range(const Interval& y, double start, double scale) {
   if (t.lo >= 1) return {{1, 1}, 0};
   if (t.hi <= 0) return {{0, 0}, 0};
   const double steepest = t.contains(0.5) ? kSteepestFade : std::max(fade_slope(t.lo), fade_slope(t.hi));
-  return {{fade(t.lo), fade(t.hi)}, steepest * scale};
+  return {{fade(t.lo), fade(t.hi)}, steepest * scale, kMostBentFade * scale * scale};
 }
 
 // The limits within which a record's radius and axial places are kept.
@@ -62,24 +52,44 @@ Limits limits_of(const ConeRecord& c, ConeKind kind) {
   return {{0.5 * thin, 2 * thick}, {c.has_free_base() ? 0.0 : -kEndless, c.has_free_tip() ? c.length : kEndless}};
 }
 
-// The nearest sphere's normalised distance u at the box's centre.
-double distance_at_center(const ConeRecord& c, ConeKind kind, const Limits& limits, const Reach& reach) {
+// The axial places at which the field can be other than zero.
+Interval axial_support(const ConeRecord& c) {
+  const double r0 = c.base_radius, r1 = c.tip_radius();
+  const bool is_steep = 2 * std::abs(c.taper) >= 1;
+  const double base_cap = 2 * (is_steep ? 2 * std::max(r0, r1) : r0), tip_cap = 2 * (is_steep ? 2 * std::max(r0, r1) : r1);
+  return {c.has_free_base() ? -base_cap : c.rise_start,
+          c.has_free_tip() ? c.length + tip_cap : c.fall_start + 1 / c.fall_scale};
+}
+
+// The largest distance from the axis at which the field can be other than zero between two axial places: that of the
+// envelope of the spheres of twice the radius, and never more than the largest radius allows.
+double lateral_support(const ConeRecord& c, const Limits& limits, const Interval& along) {
+  const double limit = 2 * limits.radius.hi, steepness = 2 * std::abs(c.taper);
+  if (steepness >= 0.99) return limit;
+  const double radius =
+      std::max({c.base_radius + c.taper * along.lo, c.base_radius + c.taper * along.hi, limits.radius.lo});
+  return std::min(limit, 2 * radius / std::sqrt(1 - steepness * steepness)) * (1 + kRounding);
+}
+
+// The nearest sphere's normalised distance u at an axial place and a squared distance from the axis.
+double distance_at(const ConeRecord& c, ConeKind kind, const Limits& limits, double y, double rho2) {
   const double r0 = c.base_radius, s = c.taper;
-  const double foot = r0 + s * reach.y;
+  const double foot = r0 + s * y;
   double center;
   if (kind == ConeKind::kPlain && foot <= 0) {
     center = s > 0 ? c.length : 0;
   } else {
     const double rc = kind == ConeKind::kPlain ? foot : std::max(foot, limits.radius.lo);
-    center = std::clamp(reach.y + s * reach.rho2 / rc, limits.axis.lo, limits.axis.hi);
+    center = std::clamp(y + s * rho2 / rc, limits.axis.lo, limits.axis.hi);
   }
   const double radius = std::clamp(r0 + s * center, limits.radius.lo, limits.radius.hi);
-  return std::sqrt((reach.y - center) * (reach.y - center) + reach.rho2) / (2 * radius);
+  return std::sqrt((y - center) * (y - center) + rho2) / (2 * radius);
 }
 
 struct DistanceSlope {
-  double slope;      // a bound of |grad u|
-  bool is_unlimited;  // whether no limit of radius or axis is at work anywhere
+  double slope;       // a bound of |grad u|
+  bool is_limited;    // whether a limit of the radius is at work anywhere
+  bool is_unlimited;  // whether no limit of radius or axis is
 };
 
 // Where no radius is limited, u grows by 1 / (2 r) a length. The derivatives of a faded cone's limited formulas, with
@@ -100,7 +110,7 @@ DistanceSlope distance_slope(const ConeRecord& c, ConeKind kind, const Limits& l
     center = {std::clamp(center.lo, limits.axis.lo, limits.axis.hi),
               std::clamp(center.hi, limits.axis.lo, limits.axis.hi)};
     const double lowest = std::max(limits.radius.lo, r0 + std::min(s * center.lo, s * center.hi));
-    return {1 / (2 * lowest), !foot_limited && !capped};
+    return {1 / (2 * lowest), false, !foot_limited && !capped};
   }
   center = {std::clamp(center.lo, limits.axis.lo, limits.axis.hi),
             std::clamp(center.hi, limits.axis.lo, limits.axis.hi)};
@@ -108,7 +118,7 @@ DistanceSlope distance_slope(const ConeRecord& c, ConeKind kind, const Limits& l
   const double lowest = std::clamp(tapered.lo, limits.radius.lo, limits.radius.hi);
   const bool radius_limited = tapered.lo < least || tapered.hi > limits.radius.hi * (1 - kRounding);
   double slope = 1 / (2 * lowest);
-  if (!foot_limited && !radius_limited) return {slope, !capped};
+  if (!foot_limited && !radius_limited) return {slope, false, !capped};
   const double k = s * s * rho2 / (rc * rc);
   if (foot_limited) {
     const double by_rho =
@@ -118,7 +128,23 @@ DistanceSlope distance_slope(const ConeRecord& c, ConeKind kind, const Limits& l
   if (radius_limited) {
     slope = std::max(slope, std::hypot(1 + 2 * k, k * std::sqrt(k)) / std::sqrt(1 + k) / (2 * lowest));
   }
-  return {slope, false};
+  return {slope, true, false};
+}
+
+// Along a line, u of a cone can bend down as that of a cylinder cannot: seen from the apex it is the sine of the angle
+// to the axis over twice the taper.
+double downward_bend(const ConeRecord& c, const DistanceSlope& distance) {
+  return kSteepestFalloff * 4 * std::abs(c.taper) * distance.slope * distance.slope;
+}
+
+// Bounds of the second derivative of weight times falloff.
+Interval second_of(const ConeRecord& c, const DistanceSlope& distance, const FieldBounds& g, const Interval& weight,
+                   const FadeRange& rise, const FadeRange& fall) {
+  if (distance.is_limited) return Interval{-kInfinity, kInfinity};
+  const double mixed = 2 * std::max(rise.slope, fall.slope) * g.slope + g.value.hi * (rise.second + fall.second);
+  const bool has_crease = weight.lo <= 0 && rise.value.hi > 0 && fall.value.hi > 0;  // of max(0, ..): upward
+  return {weight.hi * g.second.lo - mixed,
+          has_crease ? kInfinity : weight.hi * (g.second.hi + downward_bend(c, distance)) + mixed};
 }
 
 }  // namespace
@@ -156,26 +182,176 @@ ConeRecord record_of(const FadedCone& cone, double scale) {
   return record;
 }
 
-ConeBounds bounds_of(const ConeRecord& c, ConeKind kind, const ModelUnits& units, const Box& box) {
-  const Reach reach = reach_of(c, units, box);
-  FadeRange rise{{1, 1}, 0}, fall{{0, 0}, 0};
-  if (kind == ConeKind::kFaded) {
-    rise = fade_range(reach.along, c.rise_start, c.rise_scale);
-    fall = fade_range(reach.along, c.fall_start, c.fall_scale);
-  }
-  const Interval weight{std::max(0.0, rise.value.lo - fall.value.hi), std::max(0.0, rise.value.hi - fall.value.lo)};
-  if (weight.hi <= 0) return {};
+namespace {
 
-  const Limits limits = limits_of(c, kind);
-  const DistanceSlope distance = distance_slope(c, kind, limits, reach);
-  const double u = distance_at_center(c, kind, limits, reach);
-  const FieldBounds g = falloff_bounds(u, distance.slope, reach.half_diagonal + place_rounding(units), kRounding);
-  if (g.value.hi <= 0) return {};
-  const double weight_slope = std::max(rise.slope, fall.slope);
-  const double slope = weight.hi * g.slope + g.value.hi * weight_slope;
+// What fades, limits and the steepness of u are in a region, before u itself is known.
+struct Setting {
+  FadeRange rise{{1, 1}, 0}, fall{{0, 0}, 0};
+  Interval weight;
+  Limits limits;
+  DistanceSlope distance;
+};
+
+Interval weight_range(const ConeRecord& c, ConeKind kind, const Interval& along, FadeRange& rise, FadeRange& fall) {
+  if (kind != ConeKind::kFaded) return {1, 1};
+  rise = fade_range(along, c.rise_start, c.rise_scale);
+  fall = fade_range(along, c.fall_start, c.fall_scale);
+  return {std::max(0.0, rise.value.lo - fall.value.hi), std::max(0.0, rise.value.hi - fall.value.lo)};
+}
+
+ConeBounds weighted(const ConeRecord& c, const Setting& setting, const FieldBounds& g, const ModelUnits& units) {
+  const auto& [rise, fall, weight, limits, distance] = setting;
+  const double slope = weight.hi * g.slope + g.value.hi * std::max(rise.slope, fall.slope);
+  const Interval second = second_of(c, distance, g, weight, rise, fall);
+  const double scale2 = units.scale * units.scale;
   return {{{weight.lo * g.value.lo * (1 - kRounding), weight.hi * g.value.hi * (1 + kRounding)},
-           units.scale * slope * (1 + 8 * kRounding)},
+           units.scale * slope * (1 + 8 * kRounding),
+           {scale2 * second.lo, scale2 * second.hi}},
           distance.is_unlimited && weight.lo == 1};
+}
+
+}  // namespace
+
+ConeBounds bounds_of(const ConeRecord& c, ConeKind kind, const ModelUnits& units, const Box& box) {
+  const Vec3 axis(c.axis), from_base = units.scale * (box.center() - c.base), half = units.scale * box.half_extent();
+  const double y = glm::dot(from_base, axis), y_reach = glm::dot(glm::abs(axis), half);
+  const double rounding =
+      kRounding * (std::abs(y) + y_reach + c.length + c.base_radius) + place_rounding(units);
+  // Only places within the support count; the search for the least distance starts from one of them.
+  const Interval support = axial_support(c);
+  const Interval along{std::max(y - y_reach, support.lo) - rounding, std::min(y + y_reach, support.hi) + rounding};
+  if (along.empty()) return {};
+  const double y_start = std::clamp(y, along.lo, along.hi);
+  Setting setting;
+  setting.weight = weight_range(c, kind, along, setting.rise, setting.fall);
+  if (setting.weight.hi <= 0) return {};
+
+  const Vec3 beside = from_base - y * axis;
+  const double rho2 = glm::dot(beside, beside), half_diagonal = glm::length(half);
+  setting.limits = limits_of(c, kind);
+  const double rho = std::sqrt(rho2), lateral = lateral_support(c, setting.limits, along);
+  setting.distance = distance_slope(c, kind, setting.limits, {along, std::min(rho + half_diagonal, lateral)});
+  // Beside the support the slope means nothing; there the way to it counts, on whose end u is 1.
+  const double u = rho <= lateral ? distance_at(c, kind, setting.limits, y_start, rho2)
+                                  : 1 + (rho - lateral) * setting.distance.slope;
+  FieldBounds g = falloff_bounds(u, setting.distance.slope,
+                                 half_diagonal + std::abs(y - y_start) + place_rounding(units), kRounding);
+  if (g.value.hi <= 0) return {};
+  if (y - y_reach < support.lo || y + y_reach > support.hi || rho + half_diagonal > lateral) g.value.lo = 0;
+  return weighted(c, setting, g, units);
+}
+
+namespace {
+
+// A line in a cone's coordinates, its parameter tau from the middle of the piece on.
+struct AxialLine {
+  double y, y_slope;   // y(tau)
+  double n0, n1, n2;   // rho^2(tau) = n0 + 2 n1 tau + n2 tau^2
+  double nearest;      // tau at which the line passes the base
+
+  double height(double tau) const { return y + y_slope * tau; }
+  double rho2(double tau) const { return std::max(0.0, n0 + tau * (2 * n1 + tau * n2)); }
+};
+
+// Where the distance u is least along the line: of all spheres of the cone, that which the line passes at the least
+// distance for its size. The condition is linear in the sphere's place on the axis. Where no place is best the cone's
+// thick side is, at infinity.
+double nearest_approach(const ConeRecord& c, const Limits& limits, const AxialLine& line) {
+  const double r0 = c.base_radius, s = c.taper;
+  // Across the line: the axis' share, its product with the way to the base, and that way's square.
+  const double axis2 = line.n2, product = line.y + line.y_slope * line.nearest;
+  const double way2 = line.n0 + line.y * line.y - line.nearest * line.nearest;
+  const double above = r0 * product + s * way2, below = r0 * axis2 + s * product;
+  double place;
+  if (below > 1e-12 * r0) {
+    place = above / below;
+  } else {
+    place = s > 0 ? std::numeric_limits<double>::max() : s < 0 ? -std::numeric_limits<double>::max() : line.y;
+  }
+  place = std::clamp(place, std::max(limits.axis.lo, -1e6), std::min(limits.axis.hi, 1e6));
+  return line.y_slope * place + line.nearest;
+}
+
+// The part of the line inside the field's support, where the radius is unlimited: u <= 1 is a quadratic in tau. With a
+// margin, since u is near 1 far from the surface.
+Interval support_along(const ConeRecord& c, const AxialLine& line, double half) {
+  const double s = c.taper, f0 = c.base_radius + s * line.y, f1 = s * line.y_slope, k = 1 - 4 * s * s;
+  const double a = k * line.n2 - 4 * f1 * f1, b = k * line.n1 - 4 * f0 * f1, q = k * line.n0 - 4 * f0 * f0;
+  const double discriminant = b * b - a * q;
+  if (!(a > 1e-9) || discriminant < 0) return {-half, half};
+  const double root = std::sqrt(discriminant), margin = 1e-5 * (half + c.base_radius);
+  return {std::max(-half, (-b - root) / a - margin), std::min(half, (-b + root) / a + margin)};
+}
+
+}  // namespace
+
+namespace {
+
+// Where along a line its height, linear in t, is within an interval, with a margin for rounding.
+Interval part_within(const Interval& heights, double height, double slope, const Interval& range) {
+  if (std::abs(slope) * (range.hi - range.lo) < 1e-9 * (heights.hi - heights.lo)) {
+    const double at = height + slope * range.lo, margin = 1e-6 * (heights.hi - heights.lo);
+    return heights.lo - margin <= at && at <= heights.hi + margin ? range : Interval{};
+  }
+  const double a = (heights.lo - height) / slope, b = (heights.hi - height) / slope;
+  const double margin = 1e-6 * (range.hi - range.lo + std::abs(b - a));
+  return {std::max(range.lo, std::min(a, b) - margin), std::min(range.hi, std::max(a, b) + margin)};
+}
+
+}  // namespace
+
+ConeRayBounds bounds_along(const ConeRecord& c, ConeKind kind, const ModelUnits& units, const Ray& ray,
+                           const Interval& range) {
+  // Only the part within the axial support counts.
+  const Vec3 axis(c.axis);
+  const double y_slope = glm::dot(ray.direction, axis), y_origin = units.scale * glm::dot(ray.origin - c.base, axis);
+  const Interval part = part_within(axial_support(c), y_origin, units.scale * y_slope, range);
+  if (part.empty()) return {};
+  const double middle = 0.5 * (part.lo + part.hi), half = 0.5 * units.scale * (part.hi - part.lo);
+  const Vec3 from_base = units.scale * (ray.at(middle) - c.base);
+  AxialLine line;
+  line.y = glm::dot(from_base, axis);
+  line.y_slope = y_slope;
+  const Vec3 beside = from_base - line.y * axis, beside_slope = ray.direction - line.y_slope * axis;
+  line.n0 = glm::dot(beside, beside);
+  line.n1 = glm::dot(beside, beside_slope);
+  line.n2 = glm::dot(beside_slope, beside_slope);
+  line.nearest = -glm::dot(from_base, ray.direction);
+
+  const double rounding =
+      kRounding * (std::abs(line.y) + half + c.length + c.base_radius) + place_rounding(units);
+  const double y_reach = std::abs(line.y_slope) * half + rounding;
+  const Interval along{line.y - y_reach, line.y + y_reach};
+  Setting setting;
+  setting.limits = limits_of(c, kind);
+  // Most lines pass beside the support.
+  const double lateral = lateral_support(c, setting.limits, along) + rounding;
+  const double closest = line.n2 > 0 ? std::clamp(-line.n1 / line.n2, -half, half) : 0;
+  if (line.rho2(closest) >= lateral * lateral) return {};
+  setting.weight = weight_range(c, kind, along, setting.rise, setting.fall);
+  if (setting.weight.hi <= 0) return {};
+  const double rho_hi = std::min(lateral, std::sqrt(std::max(line.rho2(-half), line.rho2(half))));
+  setting.distance = distance_slope(c, kind, setting.limits, {along, rho_hi});
+
+  const auto distance = [&](double tau) {
+    return distance_at(c, kind, setting.limits, line.height(tau), line.rho2(tau));
+  };
+  const double slope = setting.distance.slope, slack = slope * place_rounding(units);
+  FieldBounds g;
+  Interval reach{-half, half};
+  if (setting.distance.is_limited) {
+    g = {{0, 1}, kSteepestFalloff * slope, {-kInfinity, kInfinity}};
+  } else {
+    // Level sets of u are convex: along a line it falls, then rises.
+    const double least = distance(std::clamp(nearest_approach(c, setting.limits, line), -half, half));
+    const double lo = std::max(0.0, least * (1 - 4 * kRounding) - slack - kRounding);
+    if (lo >= 1) return {};
+    const double hi = std::max(distance(-half), distance(half)) * (1 + kRounding) + slack + kRounding;
+    g = falloff_bounds_between({lo, hi}, slope);
+    if (setting.distance.is_unlimited) reach = support_along(c, line, half);
+  }
+  if (part.lo > range.lo || part.hi < range.hi) g.value.lo = 0;
+  return {weighted(c, setting, g, units), {middle + reach.lo / units.scale, middle + reach.hi / units.scale}};
 }
 
 }  // namespace barkridge

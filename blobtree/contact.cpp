@@ -56,6 +56,15 @@ double contact_expansion_slope(const ContactShape& shape, double x) {
   return 4.0 * m / (w * w * w) * (x - w) * (12.0 * x - 6.0 * w);
 }
 
+double most_bent_expansion(const ContactShape& shape) {
+  // Both cubics' second derivatives are linear: the largest are at their ends.
+  const double w = shape.width, m = shape.swelling;
+  const auto [c, e] = near_cubic(shape);
+  const double far = 4.0 * m / (w * w * w);
+  return std::max({std::abs(2 * e), std::abs(2 * e + 3 * c * w), std::abs(far * (24 * w - 18 * w)),
+                   std::abs(far * (12 * w - 18 * w))});
+}
+
 ContactRange contact_range(const ContactShape& shape, const Interval& f) {
   ContactRange range;
   if (f.hi >= kIsoValue) range.steepest_effect = 1;

@@ -12,6 +12,9 @@ namespace barkridge {
 double contact_expansion(const ContactShape& shape, double x);
 double contact_expansion_slope(const ContactShape& shape, double x);
 
+/// The largest |h''|.
+double most_bent_expansion(const ContactShape& shape);
+
 /// The derivative of what a child with field `f` does to another: -(f - T) where it presses, h(T - f) where it only
 /// nears.
 inline double contact_effect_slope(const ContactShape& shape, double f) {

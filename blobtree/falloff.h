@@ -35,6 +35,14 @@ inline double steepest_falloff(Interval u) {
   return std::abs(2.0 * end * falloff_slope(end * end));
 }
 
+/// Bounds of the second derivative of the falloff along any line, times the square of the radius of influence, for u of
+/// at least `lo`, where u is the distance from a point over that radius: along the line of the gradient it is g'', across
+/// it g' / u, which is the lower one and rises with u.
+inline Interval falloff_second(double lo) {
+  const double v = std::min(1.0, lo * lo);
+  return {-44.0 / 9 + v * (68.0 / 9 - v * (24.0 / 9)), 3.79};
+}
+
 /// The step that fades a primitive along its axis: 0 for t <= 0, 1 for t >= 1, twice differentiable. Its slope is at
 /// most kSteepestFade.
 inline double fade(double t) {
@@ -46,5 +54,6 @@ inline double fade_slope(double t) {
   return 30.0 * t * t * (1.0 - t) * (1.0 - t);
 }
 inline constexpr double kSteepestFade = 1.875;
+inline constexpr double kMostBentFade = 5.7736;  ///< its largest second derivative
 
 }  // namespace barkridge

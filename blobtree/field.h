@@ -6,8 +6,11 @@
 // field's support.
 
 #include <cstddef>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "base/geometry.h"
 
@@ -21,6 +24,10 @@ struct FieldBounds {
   Interval value{0, 0};
   /// At least the length of every gradient, and a Lipschitz constant of the field on the region if that is convex.
   double slope = 0;
+  /// Encloses the second derivative along every line, where it is known; a crease that points up, like contact's, counts
+  /// as +infinity and one that points down as -infinity. So between two points at a distance h the field is at most
+  /// the larger of its values there minus second.lo h^2 / 8.
+  Interval second{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 };
 
 /// An immutable scalar field. Every member may be called from many threads at once.
@@ -38,10 +45,6 @@ class Field {
   virtual void values_and_gradients(std::span<const Vec3> points, std::span<double> values,
                                     std::span<Vec3> gradients) const = 0;
 
-  /// F at points along a ray at equal distances, from `range.lo` to `range.hi`: at least two. To rounding the values at
-  /// those points; much faster than point by point.
-  virtual void values_along(const Ray& ray, const Interval& range, std::span<double> values) const;
-
   /// Bounds over a non-empty box: conservative, and converging to the point's value as the box shrinks.
   virtual FieldBounds bounds(const Box& box) const = 0;
 
@@ -49,6 +52,18 @@ class Field {
   /// the box agree to the bit with this field's, bounds of boxes inside it are at least as tight. Outside `box` nothing
   /// is promised.
   virtual std::shared_ptr<const Field> restricted(const Box& box) const = 0;
+
+  /// Boxes that together hold the solid, each so small that few primitives matter in it; they may overlap. Cost: in
+  /// proportion to the model.
+  virtual std::vector<Box> cover() const;
+
+  /// The smallest t in `range` at which the ray is inside the solid, or none; exact to `tolerance`. Nothing is missed
+  /// that is thicker than that along the ray and exceeds the iso-value by more than 1e-5. The range must lie in the box
+  /// that the field is restricted to, to rounding.
+  virtual std::optional<double> first_inside(const Ray& ray, const Interval& range, double tolerance) const;
+
+  /// Whether there is any such t. Cheaper.
+  virtual bool any_inside(const Ray& ray, const Interval& range, double tolerance) const;
 
   /// A measure of the work of one evaluation: the number of primitives. 0 for the zero field.
   virtual std::size_t primitive_count() const = 0;

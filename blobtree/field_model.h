@@ -81,4 +81,11 @@ std::shared_ptr<const FieldModel> compile_model(const BlobTree& tree);
 /// the program.
 void assemble(const FieldModel& model, std::span<const std::uint32_t> primitives, FieldProgram& program);
 
+/// Boxes that together hold the solid: a few along each cone, around the part where it can lift the field to the
+/// iso-value with the help of those that matter there.
+std::vector<Box> cover_of(const FieldModel& model);
+
+/// Where all warps above a sum move a box.
+Box box_in_world(const FieldModel& model, Box box, std::uint32_t sum);
+
 }  // namespace barkridge

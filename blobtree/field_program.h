@@ -9,6 +9,7 @@
 
 #include "blobtree/cone_record.h"
 #include "blobtree/field.h"
+#include "blobtree/ray_search.h"
 
 namespace barkridge {
 
@@ -81,5 +82,9 @@ void evaluate_along(const FieldModel& model, const FieldProgram& program, const 
 /// Bounds on a box; and, where `rest` is given, the program of all that can matter there, whose values and gradients in
 /// the box are those of `program` to the bit.
 FieldBounds bound(const FieldModel& model, const FieldProgram& program, const Box& box, FieldProgram* rest = nullptr);
+
+/// The same along a piece of a ray, on its line instead of in a box.
+RayBounds bound_along(const FieldModel& model, const FieldProgram& program, const Ray& ray, const Interval& range,
+                      FieldProgram& rest);
 
 }  // namespace barkridge

@@ -51,6 +51,14 @@ class Bounder {
     warps_.clear();
   }
 
+  /// Along a piece of a ray, which lies in the box.
+  RayBounds run(const FieldProgram& program, const Ray& ray, const Interval& range) {
+    ray_ = &ray;
+    range_ = range;
+    const FieldBounds bounds = run(program);
+    return {bounds, reach_};
+  }
+
   FieldBounds run(const FieldProgram& program) {
     for (const FieldInstruction& instruction : program.code) step(instruction, program);
     return stack_.empty() ? FieldBounds{} : stack_.back().bounds;
@@ -71,6 +79,7 @@ class Bounder {
           return std::visit([&](const auto& shape) { return bounds_of(shape, part); }, other.shape);
         });
         push(instruction, bounds, !is_zero(bounds));
+        reach_ = range_;
         break;
       }
       case Op::kNegate:
@@ -115,19 +124,28 @@ class Bounder {
   }
 
   void push_cones(std::span<const ConeReference> cones) {
-    FieldBounds sum;
+    FieldBounds sum{{0, 0}, 0, {0, 0}};
     const std::size_t first = cones_.size();
     for (const ConeReference& reference : cones) {
       const auto kind = static_cast<ConeKind>(reference.kind);
-      const ConeBounds bounds = bounds_of(model_.cones[reference.cone], kind, model_.units, box_);
+      const ConeBounds bounds = bounds_of_cone(model_.cones[reference.cone], kind);
       if (is_zero(bounds.field)) continue;
       sum.value.lo += bounds.field.value.lo;
       sum.value.hi += bounds.field.value.hi;
       sum.slope += bounds.field.slope;
+      sum.second.lo += bounds.field.second.lo;
+      sum.second.hi += bounds.field.second.hi;
       cones_.emplace_back(reference.cone, bounds.steady ? ConeKind::kSteady : kind);
     }
     const std::size_t count = cones_.size() - first;
     push({Op::kCones, static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(first)}, sum, count > 0);
+  }
+
+  ConeBounds bounds_of_cone(const ConeRecord& cone, ConeKind kind) {
+    if (!ray_ || !warps_.empty()) return bounds_of(cone, kind, model_.units, box_);
+    const ConeRayBounds along = bounds_along(cone, kind, model_.units, *ray_, range_);
+    reach_ = {std::min(reach_.lo, along.reach.lo), std::max(reach_.hi, along.reach.hi)};
+    return along.bounds;
   }
 
   void push(const FieldInstruction& instruction, const FieldBounds& bounds, bool live) {
@@ -139,6 +157,7 @@ class Bounder {
     Operand& top = stack_.back();
     if (!top.live) return;
     top.bounds.value = {-top.bounds.value.hi, -top.bounds.value.lo};
+    top.bounds.second = {-top.bounds.second.hi, -top.bounds.second.lo};
     rest_.push_back(instruction);
   }
 
@@ -147,6 +166,7 @@ class Bounder {
     warps_.push_back({box_, warped.stretch, rest_.size()});
     rest_.push_back(instruction);
     box_ = warped.box;
+    reach_ = range_;
   }
 
   void leave(const FieldInstruction& instruction) {
@@ -160,6 +180,7 @@ class Bounder {
       return;
     }
     top.bounds.slope *= warp.stretch;
+    top.bounds.second = FieldBounds{}.second;
     rest_.push_back(instruction);
   }
 
@@ -280,6 +301,10 @@ class Bounder {
   std::vector<Operand>& operands_;
   std::vector<FieldBounds>& children_;
   std::size_t start_ = 0;
+
+  const Ray* ray_ = nullptr;
+  Interval range_;
+  Interval reach_;
 };
 
 }  // namespace
@@ -290,6 +315,14 @@ FieldBounds bound(const FieldModel& model, const FieldProgram& program, const Bo
   FieldProgram& out = rest ? *rest : discarded;
   out.clear();
   return Bounder(model, box, out, scratch).run(program);
+}
+
+RayBounds bound_along(const FieldModel& model, const FieldProgram& program, const Ray& ray, const Interval& range,
+                      FieldProgram& rest) {
+  thread_local Scratch scratch;
+  rest.clear();
+  const Vec3 a = ray.at(range.lo), b = ray.at(range.hi);
+  return Bounder(model, {glm::min(a, b), glm::max(a, b)}, rest, scratch).run(program, ray, range);
 }
 
 }  // namespace barkridge

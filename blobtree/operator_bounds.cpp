@@ -35,14 +35,22 @@ double slope_of_choice(std::span<const FieldBounds> children, Possible possible)
   return slope;
 }
 
+double lowest_second(std::span<const FieldBounds> children) {
+  double lowest = 0;
+  for (const FieldBounds& child : children) lowest = std::min(lowest, child.second.lo);
+  return lowest;
+}
+
 }  // namespace
 
 FieldBounds bounds_of(const Sum&, std::span<const FieldBounds> children) {
-  FieldBounds sum;
+  FieldBounds sum{{0, 0}, 0, {0, 0}};
   for (const FieldBounds& child : children) {
     sum.value.lo += child.value.lo;
     sum.value.hi += child.value.hi;
     sum.slope += child.slope;
+    sum.second.lo += child.second.lo;
+    sum.second.hi += child.second.hi;
   }
   return sum;
 }
@@ -62,12 +70,17 @@ FieldBounds bounds_of(const Ricci& ricci, std::span<const FieldBounds> children)
 
 FieldBounds bounds_of(const Union&, std::span<const FieldBounds> children) {
   const Interval range = of_rising(children, -kInfinity, [](double a, double b) { return std::max(a, b); });
-  return {range, slope_of_choice(children, [&](const FieldBounds& c) { return c.value.hi >= range.lo; })};
+  FieldBounds result{range, slope_of_choice(children, [&](const FieldBounds& c) { return c.value.hi >= range.lo; })};
+  result.second.lo = lowest_second(children);
+  return result;
 }
 
 FieldBounds bounds_of(const Intersection&, std::span<const FieldBounds> children) {
   const Interval range = of_rising(children, kInfinity, [](double a, double b) { return std::min(a, b); });
-  return {range, slope_of_choice(children, [&](const FieldBounds& c) { return c.value.lo <= range.hi; })};
+  FieldBounds result{range, slope_of_choice(children, [&](const FieldBounds& c) { return c.value.lo <= range.hi; })};
+  result.second.hi = 0;
+  for (const FieldBounds& child : children) result.second.hi = std::max(result.second.hi, child.second.hi);
+  return result;
 }
 
 FieldBounds bounds_of(const Difference&, std::span<const FieldBounds> children) {
@@ -92,6 +105,8 @@ FieldBounds bounds_of(const Negative&, std::span<const FieldBounds> children) {
     result.value.lo -= child.value.hi;
     result.value.hi -= child.value.lo;
     result.slope += child.slope;
+    result.second.lo -= child.second.hi;
+    result.second.hi -= child.second.lo;
   }
   return result;
 }
@@ -99,12 +114,18 @@ FieldBounds bounds_of(const Negative&, std::span<const FieldBounds> children) {
 FieldBounds bounds_of(const Contact& contact, std::span<const FieldBounds> children) {
   // What each child does to the others, and all of them together.
   struct Effect {
-    double lowest_expansion = 0, highest_expansion = 0, compression = 0, slope = 0;
+    double lowest_expansion = 0, highest_expansion = 0, compression = 0, slope = 0, second = 0;
+  };
+  // Of e(f) for a child's field f: e' f'' + e'' f'^2, in size.
+  const double most_bent = most_bent_expansion(contact.shape);
+  const auto second_of_effect = [&](const FieldBounds& child, const ContactRange& range) {
+    if (range.steepest_effect == 0) return 0.0;
+    return range.steepest_effect * std::max(-child.second.lo, child.second.hi) + most_bent * child.slope * child.slope;
   };
   const auto effect_of = [&](const FieldBounds& child) {
     const ContactRange range = contact_range(contact.shape, child.value);
     return Effect{range.lowest_expansion, range.highest_expansion, std::max(0.0, child.value.hi - kIsoValue),
-                  range.steepest_effect * child.slope};
+                  range.steepest_effect * child.slope, second_of_effect(child, range)};
   };
   Effect all;
   double highest_lo = -kInfinity;
@@ -114,6 +135,7 @@ FieldBounds bounds_of(const Contact& contact, std::span<const FieldBounds> child
     all.highest_expansion += effect.highest_expansion;
     all.compression += effect.compression;
     all.slope += effect.slope;
+    all.second += effect.second;
     highest_lo = std::max(highest_lo, child.value.lo);
   }
   // Any child that can be the highest may be the one that the others deform. Its own effect is taken off again, which
@@ -121,6 +143,7 @@ FieldBounds bounds_of(const Contact& contact, std::span<const FieldBounds> child
   constexpr double kRounding = 1e-14;
   const auto of_others = [](double sum, double own) { return std::max(0.0, sum - own); };
   FieldBounds result{{kInfinity, -kInfinity}, 0};
+  result.second.lo = lowest_second(children) - all.second;
   for (const FieldBounds& child : children) {
     if (child.value.hi < highest_lo) continue;
     const Effect own = effect_of(child);

@@ -50,12 +50,18 @@ Interval axial_support(const FadedCone& cone, const FadedConeFrame& frame) {
 
 }  // namespace
 
+FieldBounds falloff_bounds_between(const Interval& u, double slope) {
+  const double hi = std::min(1.0, u.hi);
+  const Interval second = falloff_second(u.lo);
+  return {{falloff(hi * hi), falloff(u.lo * u.lo)},
+          steepest_falloff({u.lo, hi}) * slope,
+          {second.lo * slope * slope, second.hi * slope * slope}};
+}
+
 FieldBounds falloff_bounds(double u, double slope, double half_diagonal, double rounding) {
   const double reach = slope * half_diagonal + rounding * (1 + u);
   const Interval range{std::max(0.0, u - reach), u + reach};
-  if (range.lo >= 1) return {};
-  const double hi = std::min(1.0, range.hi);
-  return {{falloff(hi * hi), falloff(range.lo * range.lo)}, steepest_falloff({range.lo, hi}) * slope};
+  return range.lo >= 1 ? FieldBounds{} : falloff_bounds_between(range, slope);
 }
 
 Box support_of(const Cone& cone) {

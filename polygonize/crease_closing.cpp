@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdlib>
 
 namespace barkridge {
@@ -95,24 +96,31 @@ std::vector<glm::ivec3> crease_bottoms(const std::vector<double>& values) {
 }
 
 bool may_have_crease_bottoms(const Lattice& lattice, const Field& with_halo, const glm::ivec3& first,
-                             const std::vector<double>& values, std::vector<Vec3>& points,
-                             std::vector<double>& halo_values) {
-  const auto inside = [&](const Step& place) { return is_inside(values[index_in_cube(place, kBlockPoints)]); };
+                             const InsideRows& inside, std::vector<Vec3>& points, std::vector<double>& halo_values) {
+  constexpr unsigned kRow = (1u << kBlockPoints) - 1;
+  const auto row = [&](int y, int z) -> unsigned { return inside[static_cast<std::size_t>(z * kBlockPoints + y)]; };
   points.clear();
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int row = 0; row < kBlockPoints * kBlockPoints; ++row) {
-      Step start(0);
-      start[(axis + 1) % 3] = row % kBlockPoints;
-      start[(axis + 2) % 3] = row / kBlockPoints;
-      for (int i = 1; i + 1 < kBlockPoints; ++i) {
-        const Step place = start + along(axis, i);
-        if (!inside(place) && inside(place - along(axis, 1)) && inside(place + along(axis, 1))) return true;
-      }
-      // At either end of the row the neighbour on one side is in the halo.
-      const Step end = start + along(axis, kBlockCells);
-      if (!inside(start) && inside(start + along(axis, 1)))
-        points.push_back(lattice.point(first + start - along(axis, 1)));
-      if (!inside(end) && inside(end - along(axis, 1))) points.push_back(lattice.point(first + end + along(axis, 1)));
+  const auto look_at = [&](unsigned places, int y, int z, const Step& halo_step) {
+    for (; places != 0; places &= places - 1) {
+      points.push_back(lattice.point(first + Step(std::countr_zero(places), y, z) + halo_step));
+    }
+  };
+  for (int z = 0; z < kBlockPoints; ++z) {
+    for (int y = 0; y < kBlockPoints; ++y) {
+      const unsigned here = row(y, z), outside = ~here & kRow;
+      if (outside == 0) continue;
+      // Outside points with an inside one on both sides, along x, y and z; at either end the one in the halo is asked.
+      if ((outside & here << 1 & here >> 1) != 0) return true;
+      look_at(outside & here >> 1 & 1u, y, z, along(0, -1));
+      look_at(outside & here << 1 & 1u << kBlockCells, y, z, along(0, 1));
+      const unsigned below = y > 0 ? row(y - 1, z) : 0, above = y < kBlockCells ? row(y + 1, z) : 0;
+      if ((outside & below & above) != 0) return true;
+      if (y == 0) look_at(outside & above, y, z, along(1, -1));
+      if (y == kBlockCells) look_at(outside & below, y, z, along(1, 1));
+      const unsigned before = z > 0 ? row(y, z - 1) : 0, behind = z < kBlockCells ? row(y, z + 1) : 0;
+      if ((outside & before & behind) != 0) return true;
+      if (z == 0) look_at(outside & behind, y, z, along(2, -1));
+      if (z == kBlockCells) look_at(outside & before, y, z, along(2, 1));
     }
   }
   halo_values.resize(points.size());

@@ -47,12 +47,4 @@ Lattice make_lattice(const Box& support, double cell_size) {
   return {cell_size, margin};
 }
 
-BlockRange blocks_around(const Lattice& lattice, const Box& support) {
-  // One point more on each side outweighs the rounding of the quotient.
-  const glm::ivec3 first(glm::floor(support.lo / lattice.cell_size) - 1.0);
-  const glm::ivec3 last(glm::ceil(support.hi / lattice.cell_size) + 1.0);
-  const auto block_of = [](const glm::ivec3& point) { return glm::ivec3(glm::floor(Vec3(point) / Vec3(kBlockCells))); };
-  return {block_of(first), block_of(last) + 1};
-}
-
 }  // namespace barkridge

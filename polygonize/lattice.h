@@ -28,8 +28,6 @@ struct Lattice {
 struct BlockRange {
   glm::ivec3 lo{0};
   glm::ivec3 hi{0};
-
-  bool is_single() const { return hi - lo == glm::ivec3(1); }
 };
 
 /// The closed box of all lattice points of the blocks.
@@ -38,8 +36,5 @@ Box box_of(const Lattice& lattice, const BlockRange& range);
 /// A lattice fit for everything within `support`. Throws `InputError` for a size that is not positive and finite or too
 /// small for the support's coordinates as floats, and for a support that is not bounded.
 Lattice make_lattice(const Box& support, double cell_size);
-
-/// The blocks that have a cell with a corner in `support`.
-BlockRange blocks_around(const Lattice& lattice, const Box& support);
 
 }  // namespace barkridge

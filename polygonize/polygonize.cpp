@@ -1,15 +1,20 @@
 #include "polygonize/polygonize.h"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <atomic>
 #include <iterator>
 #include <limits>
 #include <mutex>
+#include <tuple>
 #include <vector>
+
+#include <glm/common.hpp>
 
 #include "polygonize/crease_closing.h"
 #include "polygonize/lattice.h"
@@ -24,49 +29,54 @@ namespace {
 // Share of the progress that finding the surface takes; stitching is the rest.
 constexpr double kSearchShare = 0.98;
 
-// Halves the longer axes, so that parts become cubes, then small cubes.
-std::vector<BlockRange> split(const BlockRange& range) {
-  const glm::ivec3 size = range.hi - range.lo;
-  const int longest = std::max({size.x, size.y, size.z});
-  std::vector<BlockRange> parts{range};
-  for (int axis = 0; axis < 3; ++axis) {
-    if (2 * size[axis] <= longest || size[axis] == 1) continue;
-    const int middle = range.lo[axis] + size[axis] / 2;
-    for (std::size_t i = parts.size(); i-- > 0;) {
-      parts.push_back(parts[i]);
-      parts[i].hi[axis] = middle;
-      parts.back().lo[axis] = middle;
-    }
-  }
-  return parts;
+// The blocks that a box overlaps.
+BlockRange blocks_of(const Lattice& lattice, const Box& box) {
+  const double side = kBlockCells * lattice.cell_size;
+  // A little more, against the rounding of the quotient.
+  return {glm::ivec3(glm::floor(box.lo / side - 1e-6)), glm::ivec3(glm::floor(box.hi / side + 1e-6)) + 1};
 }
 
-// The search for the blocks that have surface, from all blocks at once down to single ones, in parallel. On its way
-// down each part of space has its own restriction of the field, made from that of the part around it.
+bool is_before(const glm::ivec3& a, const glm::ivec3& b) { return std::tie(a.z, a.y, a.x) < std::tie(b.z, b.y, b.x); }
+
+void sort_and_unite(std::vector<glm::ivec3>& blocks) {
+  tbb::parallel_sort(blocks.begin(), blocks.end(), is_before);
+  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+}
+
+// All blocks that the field's cover overlaps, each once, in order. Boxes of a cover follow the model, so neighbours
+// name the same blocks again: doubles are dropped early.
+std::vector<glm::ivec3> blocks_to_visit(const Lattice& lattice, const Field& field) {
+  constexpr std::size_t kWorthUniting = std::size_t{1} << 22;
+  std::vector<glm::ivec3> blocks;
+  std::size_t united = 0;
+  for (const Box& box : field.cover()) {
+    const BlockRange range = blocks_of(lattice, box);
+    for (int z = range.lo.z; z < range.hi.z; ++z) {
+      for (int y = range.lo.y; y < range.hi.y; ++y) {
+        for (int x = range.lo.x; x < range.hi.x; ++x) blocks.emplace_back(x, y, z);
+      }
+    }
+    if (blocks.size() - united > kWorthUniting + united) {
+      sort_and_unite(blocks);
+      united = blocks.size();
+    }
+  }
+  sort_and_unite(blocks);
+  return blocks;
+}
+
+// The search for the surface in blocks, in parallel.
 class SurfaceSearch {
  public:
   SurfaceSearch(const Lattice& lattice, const PolygonizeOptions& options) : lattice_(lattice), options_(options) {}
 
-  // `field` is restricted to the range's box with its halo. `share` is the share of all work that the range stands for.
-  void visit(const BlockRange& range, const Field& field, double share) {
-    if (range.is_single()) {
-      visit_block(range, field);
-      add_progress(share);
-      return;
-    }
-    std::vector<BlockRange> parts = split(range);
-    std::erase_if(parts, [&](const BlockRange& part) { return !may_have_surface(field, part); });
-    if (parts.empty()) {
-      add_progress(share);
-      return;
-    }
-    tbb::parallel_for(
-        std::size_t{0}, parts.size(),
-        [&](std::size_t i) {
-          const auto restricted = field.restricted(box_with_halo(parts[i]));
-          visit(parts[i], *restricted, share / static_cast<double>(parts.size()));
-        },
-        tbb::simple_partitioner{});
+  void visit(const std::vector<glm::ivec3>& blocks, const Field& field) {
+    constexpr std::size_t kGrain = 16;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), kGrain),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        for (std::size_t i = range.begin(); i < range.end(); ++i) visit_block(blocks[i], field);
+                        add_progress(static_cast<double>(range.size()) / static_cast<double>(blocks.size()));
+                      });
   }
 
   std::vector<SurfaceBlock> take_blocks() {
@@ -84,21 +94,23 @@ class SurfaceSearch {
     std::vector<SurfaceBlock> blocks;
   };
 
-  bool may_have_surface(const Field& field, const BlockRange& range) const {
-    const Interval value = field.bounds(box_of(lattice_, range)).value;
-    return !(value.hi < kIsoValue) && !(value.lo >= kIsoValue);
-  }
-
   Box box_with_halo(const BlockRange& range) const {
     // A little more than the halo, so that rounding leaves no lattice point outside.
     return grown(box_of(lattice_, range), (kCreaseHalo + 0.01) * lattice_.cell_size);
   }
 
-  void visit_block(const BlockRange& single, const Field& with_halo) {
+  void visit_block(const glm::ivec3& coordinates, const Field& field) {
+    const BlockRange single{coordinates, coordinates + 1};
+    const Box halo = box_with_halo(single), box = box_of(lattice_, single);
+    const auto with_halo = field.restricted(halo);
+    const Interval around = with_halo->bounds(halo).value;
+    if (around.hi < kIsoValue || around.lo >= kIsoValue) return;
+    const auto restricted = with_halo->restricted(box);
+    const Interval value = restricted->bounds(box).value;
+    if (value.hi < kIsoValue || value.lo >= kIsoValue) return;
     Local& local = locals_.local();
-    const auto restricted = with_halo.restricted(box_of(lattice_, single));
-    std::optional<SurfaceBlock> block =
-        sample_block(lattice_, *restricted, options_.close_creases ? &with_halo : nullptr, single.lo, local.scratch);
+    std::optional<SurfaceBlock> block = sample_block(
+        lattice_, *restricted, options_.close_creases ? with_halo.get() : nullptr, coordinates, local.scratch);
     if (!block) return;
     check_limits(triangle_count_ += block->triangle_count, vertex_count_ += block->numbers.count());
     place_vertices(lattice_, *restricted, *block, local.scratch);
@@ -143,7 +155,7 @@ Mesh polygonize(const Field& field, const PolygonizeOptions& options) {
   Mesh mesh;
   if (!support.empty()) {
     SurfaceSearch search(lattice, options);
-    search.visit(blocks_around(lattice, support), field, 1);
+    search.visit(blocks_to_visit(lattice, field), field);
     mesh = stitch(search.take_blocks());
     if (options.close_creases) remove_unresolved_pieces(mesh, options.cell_size);
   }

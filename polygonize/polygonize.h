@@ -21,11 +21,11 @@ struct PolygonizeOptions {
 };
 
 /// The surface of the field's solid as a closed, oriented 2-manifold that does not intersect itself: marching cubes
-/// over those blocks of the lattice (multiples of `cell_size` from the origin) that the field's bounds cannot rule out,
-/// so nothing is missed that the lattice can see and empty space is never sampled.
+/// over those blocks of the lattice (multiples of `cell_size` from the origin) that the field's cover touches and its
+/// bounds cannot rule out, so nothing is missed that the lattice can see and empty space is never sampled.
 ///
 /// Each lattice edge with one end inside has one vertex, at a root of the field (not of its linear interpolation) to
-/// 1e-6 of a cell, but at least 1e-3 of a cell away from the edge's ends (more where floats are too coarse for that),
+/// 1e-5 of a cell, but at least 1e-3 of a cell away from the edge's ends (more where floats are too coarse for that),
 /// so that no two vertices coincide and every triangle has an area. Normals are the field's own, `-grad F / |grad F|`;
 /// where the gradient vanishes, the mean of the triangles'. The result depends on field and options only, to the bit,
 /// not on threads.

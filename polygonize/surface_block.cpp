@@ -10,7 +10,7 @@ namespace barkridge {
 
 namespace {
 
-constexpr double kToleranceCells = 1e-6;
+constexpr double kToleranceCells = 1e-5;
 
 constexpr int kPointCount = kBlockPoints * kBlockPoints * kBlockPoints;
 
@@ -29,17 +29,6 @@ void sample(const Lattice& lattice, const Field& field, const glm::ivec3& first,
   field.values(points, values);
 }
 
-// Raises the bottoms of creases among a block's samples to the iso-value.
-void raise_crease_bottoms(const Lattice& lattice, const Field& with_halo, const glm::ivec3& first,
-                          BlockScratch& scratch) {
-  if (!may_have_crease_bottoms(lattice, with_halo, first, scratch.values, scratch.halo_points, scratch.halo_values))
-    return;
-  sample(lattice, with_halo, first - kCreaseHalo, kHaloPoints, scratch.halo_points, scratch.halo_values);
-  for (const glm::ivec3& bottom : crease_bottoms(scratch.halo_values)) {
-    scratch.values[point_index(bottom.x, bottom.y, bottom.z)] = kIsoValue;
-  }
-}
-
 InsideRows find_inside(const std::vector<double>& values) {
   InsideRows inside{};
   for (int row = 0; row < kBlockPoints * kBlockPoints; ++row) {
@@ -50,6 +39,17 @@ InsideRows find_inside(const std::vector<double>& values) {
     inside[row] = static_cast<std::uint16_t>(bits);
   }
   return inside;
+}
+
+// Raises the bottoms of creases among a block's samples to the iso-value.
+void raise_crease_bottoms(const Lattice& lattice, const Field& with_halo, const glm::ivec3& first,
+                          BlockScratch& scratch, InsideRows& inside) {
+  if (!may_have_crease_bottoms(lattice, with_halo, first, inside, scratch.halo_points, scratch.halo_values)) return;
+  sample(lattice, with_halo, first - kCreaseHalo, kHaloPoints, scratch.halo_points, scratch.halo_values);
+  for (const glm::ivec3& bottom : crease_bottoms(scratch.halo_values)) {
+    scratch.values[point_index(bottom.x, bottom.y, bottom.z)] = kIsoValue;
+  }
+  inside = find_inside(scratch.values);
 }
 
 bool all_equal(const InsideRows& inside) {
@@ -98,7 +98,7 @@ VertexNumbers::VertexNumbers(const InsideRows& inside) {
         const int r = row(axis, y, z);
         crossed_[r] = static_cast<std::uint8_t>(changes[axis]);  // points at x = kBlockCells are not the block's
         first_[r] = static_cast<std::uint16_t>(count_);
-        count_ += static_cast<std::uint32_t>(std::popcount(crossed_[r]));
+        count_ += kBitCounts[crossed_[r]];
       }
     }
   }
@@ -108,10 +108,10 @@ std::optional<SurfaceBlock> sample_block(const Lattice& lattice, const Field& fi
                                          const glm::ivec3& coordinates, BlockScratch& scratch) {
   const glm::ivec3 first = kBlockCells * coordinates;
   sample(lattice, field, first, kBlockPoints, scratch.points, scratch.values);
-  if (with_halo) raise_crease_bottoms(lattice, *with_halo, first, scratch);
   SurfaceBlock block;
   block.coordinates = coordinates;
   block.inside = find_inside(scratch.values);
+  if (with_halo) raise_crease_bottoms(lattice, *with_halo, first, scratch, block.inside);
   if (all_equal(block.inside)) return std::nullopt;
   block.numbers = VertexNumbers(block.inside);
   for_each_surface_cell(block.inside, [&](int, int, int, unsigned cell_case) {

@@ -10,12 +10,17 @@
 #include <glm/vec3.hpp>
 
 #include "polygonize/edge_roots.h"
+#include "polygonize/inside_rows.h"
 #include "polygonize/lattice.h"
 
 namespace barkridge {
 
-/// Which of a block's lattice points are inside: point (x, y, z) is bit x of row z * kBlockPoints + y.
-using InsideRows = std::array<std::uint16_t, kBlockPoints * kBlockPoints>;
+/// The number of bits in a byte; machines without an instruction for it are supported.
+inline constexpr std::array<std::uint8_t, 256> kBitCounts = [] {
+  std::array<std::uint8_t, 256> counts{};
+  for (std::size_t i = 1; i < counts.size(); ++i) counts[i] = static_cast<std::uint8_t>((i & 1) + counts[i / 2]);
+  return counts;
+}();
 
 /// The vertices of a block, numbered. A block has those lattice edges whose lower end is no point of its upper faces,
 /// so every edge belongs to one block. Along a row of cells, vertices are in the order of x.
@@ -30,7 +35,7 @@ class VertexNumbers {
   /// The vertex's number.
   std::uint32_t at(int axis, int x, int y, int z) const {
     const int r = row(axis, y, z);
-    return first_[r] + static_cast<std::uint32_t>(std::popcount(crossed_[r] & ((1u << x) - 1)));
+    return first_[r] + kBitCounts[crossed_[r] & ((1u << x) - 1)];
   }
 
  private:

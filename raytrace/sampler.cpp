@@ -79,19 +79,18 @@ SampleLayout::SampleLayout(std::uint64_t seed_key, int full_width, int full_heig
       sample_digits(base_four_digits(static_cast<std::uint64_t>(samples_per_pixel))) {}
 
 PixelSampler::PixelSampler(const SampleLayout& layout, int x, int y)
-    : seed_(layout.seed), sample_digits_(layout.sample_digits) {
-  const std::uint64_t pixel = spread_bits(static_cast<std::uint64_t>(x)) | spread_bits(static_cast<std::uint64_t>(y))
-                                                                               << 1;
-  for (std::size_t d = 0; d < shuffled_pixel_.size(); ++d) {
-    // A leading 1 keeps prefixes of different lengths apart.
-    shuffled_pixel_[d] = append_shuffled(1, pixel, layout.pixel_digits, hash_keys(seed_, d, 0));
-  }
-}
+    : seed_(layout.seed),
+      pixel_digits_(layout.pixel_digits),
+      sample_digits_(layout.sample_digits),
+      pixel_(spread_bits(static_cast<std::uint64_t>(x)) | spread_bits(static_cast<std::uint64_t>(y)) << 1) {}
 
 glm::dvec2 PixelSampler::pair(int sample, Dimension dimension) const {
   const auto d = static_cast<std::size_t>(dimension);
+  std::uint64_t& shuffled_pixel = shuffled_pixel_[d];
+  // A leading 1 keeps prefixes of different lengths apart, and from 0, which stands for one not yet needed.
+  if (shuffled_pixel == 0) shuffled_pixel = append_shuffled(1, pixel_, pixel_digits_, hash_keys(seed_, d, 0));
   const std::uint64_t index =
-      append_shuffled(shuffled_pixel_[d], static_cast<std::uint64_t>(sample), sample_digits_, hash_keys(seed_, d, 1));
+      append_shuffled(shuffled_pixel, static_cast<std::uint64_t>(sample), sample_digits_, hash_keys(seed_, d, 1));
   const std::uint64_t scramble = hash_keys(seed_, d, 2);
   const std::uint32_t u = owen_scrambled(sobol_first(index), static_cast<std::uint32_t>(scramble));
   const std::uint32_t v = owen_scrambled(sobol_second(index), static_cast<std::uint32_t>(scramble >> 32));

@@ -25,6 +25,7 @@ struct SampleLayout {
 /// Owen-scrambled Sobol' pairs: so the samples of a pixel are stratified, its first 4, 16, 64 are so too, and those of
 /// neighbours complement each other. [Ahmed and Wonka 2020, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling
 /// Error"]
+/// Of one thread.
 class PixelSampler {
  public:
   PixelSampler(const SampleLayout& layout, int x, int y);
@@ -34,8 +35,11 @@ class PixelSampler {
 
  private:
   std::uint64_t seed_;
+  int pixel_digits_;
   int sample_digits_;
-  std::array<std::uint64_t, static_cast<std::size_t>(Dimension::kCount)> shuffled_pixel_;
+  std::uint64_t pixel_;  // its number along the curve
+  // Made as they are asked for: a pixel in which nothing is hit needs but one.
+  mutable std::array<std::uint64_t, static_cast<std::size_t>(Dimension::kCount)> shuffled_pixel_{};
 };
 
 }  // namespace barkridge

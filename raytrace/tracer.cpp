@@ -3,13 +3,13 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <new>
 #include <string>
 #include <vector>
 
-#include "raytrace/march.h"
-#include "raytrace/surface_cells.h"
+#include "raytrace/clip.h"
 
 namespace barkridge {
 
@@ -29,6 +29,35 @@ using SceneHandle = std::unique_ptr<RTCSceneTy, ReleaseScene>;
 // lengthened.
 constexpr double kFloatMargin = 1e-6;
 
+// A box that may hold part of the solid, and the model restricted to it once a ray has come by. Whichever thread gets
+// there first leaves its restriction for all; they are equal.
+class SurfaceCell {
+ public:
+  SurfaceCell() = default;
+  SurfaceCell(const SurfaceCell&) = delete;
+  SurfaceCell& operator=(const SurfaceCell&) = delete;
+  ~SurfaceCell() { delete restricted_.load(); }
+
+  const Field& field(const Field& model) const {
+    const FieldPtr* known = restricted_.load(std::memory_order_acquire);
+    return known ? **known : restrict_now(model);
+  }
+
+  Box box;
+
+ private:
+  using FieldPtr = std::shared_ptr<const Field>;
+
+  const Field& restrict_now(const Field& model) const {
+    auto mine = std::make_unique<const FieldPtr>(model.restricted(box));
+    const FieldPtr* known = nullptr;
+    if (restricted_.compare_exchange_strong(known, mine.get(), std::memory_order_acq_rel)) return **mine.release();
+    return **known;
+  }
+
+  mutable std::atomic<const FieldPtr*> restricted_ = nullptr;
+};
+
 // The ray as the callbacks need it, found again through the first member's address. Its origin is where it enters the
 // scene, so that t counts from there and is precise for rays from afar.
 struct Query {
@@ -46,6 +75,7 @@ struct Tracer::Scene {
   Vec3 center{0};
   double scale = 1;
   double tolerance = 0;
+  std::shared_ptr<const Field> model;
   std::vector<SurfaceCell> cells;
   DeviceHandle device;
   SceneHandle embree;
@@ -79,8 +109,7 @@ void Tracer::Scene::intersect_callback(const RTCIntersectFunctionNArguments* arg
   const SurfaceCell& cell = scene.cells[arguments->primID];
   const Interval range = clip(query.ray, cell.box, {0, query.length});
   if (range.empty() || range.lo >= query.t) return;
-  const std::optional<double> t =
-      cell.solid ? range.lo : first_inside({*cell.field, query.ray, cell.box}, range, scene.tolerance);
+  const std::optional<double> t = cell.field(*scene.model).first_inside(query.ray, range, scene.tolerance);
   if (!t || *t >= query.t) return;
   query.t = *t;
   query.cell = &cell;
@@ -95,7 +124,7 @@ void Tracer::Scene::occluded_callback(const RTCOccludedFunctionNArguments* argum
   const SurfaceCell& cell = scene.cells[arguments->primID];
   const Interval range = clip(query.ray, cell.box, {0, query.length});
   if (range.empty()) return;
-  if (cell.solid || any_inside({*cell.field, query.ray, cell.box}, range, scene.tolerance)) {
+  if (cell.field(*scene.model).any_inside(query.ray, range, scene.tolerance)) {
     reinterpret_cast<RTCRay*>(arguments->ray)->tfar = -std::numeric_limits<float>::infinity();
   }
 }
@@ -143,9 +172,11 @@ bool Tracer::Scene::begin(Query& query, RTCRay& out, const Ray& ray, Interval& r
 }
 
 Tracer::Tracer(const Field& field, const Progress& progress) : scene_(std::make_unique<Scene>()) {
-  SurfaceCellOptions options;
-  options.progress = progress;
-  scene_->cells = surface_cells(field, options);
+  report(progress, 0);
+  const std::vector<Box> boxes = field.cover();
+  scene_->model = field.restricted(field.support());
+  scene_->cells = std::vector<SurfaceCell>(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) scene_->cells[i].box = boxes[i];
   if (scene_->cells.empty()) return;
   for (const SurfaceCell& cell : scene_->cells) scene_->support = unite(scene_->support, cell.box);
   const double diagonal = scene_->support.diagonal();
@@ -172,10 +203,10 @@ std::optional<Hit> Tracer::first_hit(const Ray& ray, double t_min, double t_max)
   rtcIntersect1(scene_->embree.get(), &query.context, &rayhit);
   if (!query.cell) return std::nullopt;
 
-  const Vec3 point = FieldAlongRay{*query.cell->field, query.ray, query.cell->box}.at(query.t);
+  const Vec3 point = glm::clamp(query.ray.at(query.t), query.cell->box.lo, query.cell->box.hi);
   double value = 0;
   Vec3 gradient{0};
-  query.cell->field->values_and_gradients({&point, 1}, {&value, 1}, {&gradient, 1});
+  query.cell->field(*scene_->model).values_and_gradients({&point, 1}, {&value, 1}, {&gradient, 1});
   const double slope = glm::length(gradient);
   const bool steep = slope > 0 && std::isfinite(slope);
   Hit hit{range.lo + query.t, point, steep ? -gradient / slope : -ray.direction, 0};

@@ -1,10 +1,13 @@
 // What every Field promises, checked on every Field that this room makes.
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <functional>
 
+#include "blobtree/from_skeleton.h"
 #include "tests/blobtree/random_trees.h"
+#include "tests/support/skeletons.h"
 
 using namespace barkridge;
 using namespace barkridge::test;
@@ -137,6 +140,51 @@ TEST_CASE("bounds of a box hold at every point in it") {
           REQUIRE(glm::length(s.gradient) <= bounds.slope);
         }
       }
+    }
+  }
+}
+
+TEST_CASE("between two points a field is no higher than its second derivative's bound allows") {
+  for (const auto& [name, make, step_size, tolerance] : kFields) {
+    int bounded = 0;
+    for (int seed = 0; seed < kTrees; ++seed) {
+      TreeOptions options;
+      options.junction = seed % 2 ? JunctionKind::kRidge : JunctionKind::kSmooth;
+      const Skeleton skeleton = random_skeleton(static_cast<std::uint64_t>(seed), 2 + seed % 12);
+      const auto field = make(tree_from_skeleton(skeleton, options));
+      RandomSource random(8000 + static_cast<std::uint64_t>(seed));
+      for (int b = 0; b < 60; ++b) {
+        const Box box = random_box(random, field->support());
+        const double lowest_second = field->bounds(box).second.lo;
+        if (!std::isfinite(lowest_second)) continue;
+        ++bounded;
+        for (int i = 0; i < 6; ++i) {
+          const Vec3 p = random.in_box(box), q = random.in_box(box);
+          const double h = glm::distance(p, q), t = random.uniform(0, 1);
+          const double highest =
+              std::max(at(*field, p).value, at(*field, q).value) - lowest_second * h * h / 8;
+          CAPTURE(name, seed, b, lowest_second, h);
+          REQUIRE(at(*field, p + t * (q - p)).value <= highest + 2e-6);
+        }
+      }
+    }
+    CHECK(bounded > 300);
+  }
+}
+
+TEST_CASE("a cover holds the whole solid") {
+  for (int seed = 0; seed < kTrees; ++seed) {
+    const auto field = compile(random_tree(static_cast<std::uint64_t>(seed), 1 + seed % 30));
+    const std::vector<Box> cover = field->cover();
+    RandomSource random(9000 + static_cast<std::uint64_t>(seed));
+    std::vector<Vec3> points(2000);
+    for (Vec3& p : points) p = random.in_box(kSpace);
+    std::vector<double> values(points.size());
+    field->values(points, values);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (values[i] < kIsoValue) continue;
+      CAPTURE(seed, points[i].x, points[i].y, points[i].z, values[i]);
+      REQUIRE(std::any_of(cover.begin(), cover.end(), [&](const Box& box) { return box.contains(points[i]); }));
     }
   }
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "blobtree/field.h"
-#include "raytrace/march.h"
+#include "raytrace/clip.h"
 
 namespace barkridge::test {
 

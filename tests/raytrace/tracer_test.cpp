@@ -4,7 +4,6 @@
 #include <string>
 
 #include "base/random.h"
-#include "raytrace/surface_cells.h"
 #include "tests/raytrace/dense_march.h"
 #include "tests/raytrace/test_fields.h"
 
@@ -102,35 +101,6 @@ TEST_CASE("the tracer agrees with a dense march on random and grazing rays") {
     CHECK(wrong == 0);
     CHECK(unequal_shadow == 0);
     CHECK(worst < 1e-9 * size);
-  }
-}
-
-TEST_CASE("cells are disjoint, hold the whole solid, and know the field inside") {
-  for (const NamedField& model : test_models()) {
-    INFO(model.name);
-    const std::vector<SurfaceCell> cells = surface_cells(*model.field);
-    const Box box = model.field->support();
-    int inside = 0, uncovered = 0, overlapping = 0, unequal = 0;
-    for (int i = 0; i < 20000; ++i) {
-      const Vec3 p =
-          box.lo + Vec3(random_unit(3, i, 0), random_unit(3, i, 1), random_unit(3, i, 2)) * (box.hi - box.lo);
-      const double value = value_at(*model.field, p);
-      int holders = 0;
-      for (const SurfaceCell& cell : cells) {
-        if (!cell.box.contains(p)) continue;
-        ++holders;
-        if (value_at(*cell.field, p) != value || (cell.solid && value < kIsoValue)) ++unequal;
-      }
-      if (holders > 1) ++overlapping;
-      if (value >= kIsoValue) {
-        ++inside;
-        if (holders == 0) ++uncovered;
-      }
-    }
-    CHECK(inside > 20);
-    CHECK(uncovered == 0);
-    CHECK(overlapping == 0);
-    CHECK(unequal == 0);
   }
 }
 
