@@ -42,7 +42,7 @@ std::string instruction_sets() {
 }  // namespace
 
 nlohmann::ordered_json machine_facts() {
-  const double memory = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  const double memory = static_cast<double>(machine_memory());
   return {{"processor", value_in("/proc/cpuinfo", "model name")},
           {"cores", core_count()},
           {"memory", fmt::format("{:.0f} GiB", memory / (1u << 30))},
@@ -52,6 +52,10 @@ nlohmann::ordered_json machine_facts() {
 }
 
 int core_count() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
+
+std::size_t machine_memory() {
+  return static_cast<std::size_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
 
 std::size_t resident_memory() { return kilobytes_in_status("VmRSS"); }
 std::size_t peak_memory() { return kilobytes_in_status("VmHWM"); }

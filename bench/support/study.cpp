@@ -58,6 +58,7 @@ void write_file(const std::string& path, const std::string& text) {
 Study::Study(std::string name, std::string question) : name_(std::move(name)), question_(std::move(question)) {}
 
 void Study::add(Table table) {
+  if (table.rows.empty()) return;
   if (tables_.empty()) fmt::print("{}\n", question_);
   print(table);
   tables_.push_back(std::move(table));

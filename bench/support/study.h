@@ -21,7 +21,7 @@ class Study {
  public:
   Study(std::string name, std::string question);
 
-  /// Prints the table and keeps it.
+  /// Prints the table and keeps it, unless it has no rows.
   void add(Table table);
   /// A number that bench/report holds against a goal.
   void figure(const std::string& name, double value);
