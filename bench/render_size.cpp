@@ -159,12 +159,7 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--surfaces", options.surfaces, "Of smooth, ridge, bend")->delimiter(',')->capture_default_str();
   app.add_option("--threads", options.threads, "Numbers of threads")->delimiter(',')->capture_default_str();
   app.add_option("--turns", options.turns, "Processes for each")->capture_default_str();
-  app.add_option_function<std::vector<int>>(
-         "--picture", [&](const std::vector<int>& size) { options.width = size[0], options.height = size[1]; },
-         "Width and height in pixels")
-      ->delimiter(',')
-      ->expected(2)
-      ->default_str("768,1024");
+  add_picture_option(app, options.width, options.height);
   app.add_option("--limit", options.limit, "Most seconds of a process")->capture_default_str();
   app.add_flag("--once", options.once, "Run only the first of each and print its numbers");
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <hwy/highway.h>
 #include <malloc.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -31,6 +32,12 @@ std::size_t kilobytes_in_status(const std::string& key) {
   return value.empty() ? 0 : 1024 * std::stoull(value);
 }
 
+// Of the last minute: processes that wanted to run.
+double load_average() {
+  double load = 0;
+  return ::getloadavg(&load, 1) == 1 ? load : 0.0;
+}
+
 std::string instruction_sets() {
   std::string names;
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
@@ -48,7 +55,8 @@ nlohmann::ordered_json machine_facts() {
           {"memory", fmt::format("{:.0f} GiB", memory / (1u << 30))},
           {"instruction sets", instruction_sets()},
           {"compiler", "g++ " __VERSION__},
-          {"commit", BARKRIDGE_COMMIT}};
+          {"commit", BARKRIDGE_COMMIT},
+          {"load", load_average()}};
 }
 
 int core_count() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }

@@ -11,8 +11,6 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "bench/support/machine.h"
-
 namespace barkridge::bench {
 
 namespace {
@@ -75,9 +73,20 @@ nlohmann::ordered_json Study::to_json() const {
   return {{"program", name_},
           {"question", question_},
           {"date", fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)))},
-          {"machine", machine_facts()},
+          {"machine", machine_},
           {"figures", figures_},
           {"tables", tables}};
+}
+
+void add_picture_option(CLI::App& app, int& width, int& height) {
+  const auto set = [&](const std::vector<int>& size) {
+    width = size[0];
+    height = size[1];
+  };
+  app.add_option_function<std::vector<int>>("--picture", set, "Width and height in pixels")
+      ->delimiter(',')
+      ->expected(2)
+      ->default_str(fmt::format("{},{}", width, height));
 }
 
 int run_study(int argc, char** argv, Study study, const std::function<void(CLI::App&)>& add_options,

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/support/machine.h"
+
 namespace barkridge::bench {
 
 /// Cells are texts, whole numbers, numbers (shown with three digits), or null where there is nothing to say.
@@ -30,9 +32,13 @@ class Study {
 
  private:
   std::string name_, question_;
+  nlohmann::ordered_json machine_ = machine_facts();
   std::vector<Table> tables_;
   nlohmann::ordered_json figures_ = nlohmann::ordered_json::object();
 };
+
+/// `--picture WIDTH,HEIGHT`.
+void add_picture_option(CLI::App& app, int& width, int& height);
 
 /// The main function of a study: reads the command line, to which `add_options` adds, measures, and writes the file
 /// that
