@@ -6,13 +6,11 @@
 #include <hwy/targets.h>
 
 #include <algorithm>
-#include <barrier>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <set>
 #include <stdexcept>
-#include <thread>
 
 #include "base/random.h"
 #include "bench/support/machine.h"
@@ -112,18 +110,10 @@ Measurement on_threads(const Evaluation& evaluate, std::vector<Desk>& desks, int
   const double once = seconds_per_call(0.1 * slice, [&] { evaluate(desks.front()); });
   const int repetitions = static_cast<int>(std::ceil(slice / once));
   return [&evaluate, &desks, threads, repetitions] {
-    std::barrier start(threads + 1);
-    std::vector<std::jthread> workers;
-    for (int k = 0; k < threads; ++k) {
-      workers.emplace_back([&, k] {
-        start.arrive_and_wait();
-        for (int i = 0; i < repetitions; ++i) evaluate(desks[static_cast<std::size_t>(k)]);
-      });
-    }
-    start.arrive_and_wait();
-    const Stopwatch watch;
-    workers.clear();
-    return watch.seconds() / repetitions;
+    const auto work = [&](std::size_t thread) {
+      for (int i = 0; i < repetitions; ++i) evaluate(desks[thread]);
+    };
+    return seconds_on_threads(threads, work) / repetitions;
   };
 }
 

@@ -148,14 +148,12 @@ void measure(Options options, Study& study) {
   std::vector<Way> ways = ways_of(options);
   run_in_turns(ways, options.turns);
   study.add(time_table(ways, options));
-  study.add(surface_ratios(ways, "total"));
+  add_surface_ratios(study, ways, "total", "mesh");
   study.add(growth_table(ways, study, options));
   for (const Way& way : ways) {
     if (way.surface != "ridge" || way.threads != *options.threads.rbegin()) continue;
     study.figure(fmt::format("mesh_rate_{}", way.model), million_triangles_per_second(way));
   }
-  study.figure("mesh_ridge_to_smooth", largest_ratio(ways, "ridge", "smooth", "total"));
-  study.figure("mesh_bend_to_ridge", largest_ratio(ways, "bend", "ridge", "total"));
 }
 
 void add_options(CLI::App& app, Options& options) {

@@ -81,7 +81,7 @@ void measure(const Options& options, Study& study) {
                           total.lowest(), total.highest(), 1e-6 * way.median("peak")});
   }
   study.add(std::move(table));
-  study.figure("poplar_seconds", way.median("total"));
+  study.figure(fmt::format("poplar_{}x{}_{}", options.width, options.height, options.samples), way.median("total"));
 }
 
 }  // namespace

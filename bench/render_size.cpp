@@ -148,10 +148,8 @@ void measure(const Options& options, Study& study) {
   std::vector<Way> ways = ways_of(options);
   run_in_turns(ways, options.turns);
   study.add(time_table(ways, options));
-  study.add(surface_ratios(ways, "render"));
+  add_surface_ratios(study, ways, "render", "render");
   study.add(growth_table(ways, study, options));
-  study.figure("render_ridge_to_smooth", largest_ratio(ways, "ridge", "smooth", "render"));
-  study.figure("render_bend_to_ridge", largest_ratio(ways, "bend", "ridge", "render"));
 }
 
 void add_options(CLI::App& app, Options& options) {

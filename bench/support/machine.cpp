@@ -41,6 +41,7 @@ double load_average() {
 std::string instruction_sets() {
   std::string names;
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    if (target == HWY_SCALAR || target == HWY_EMU128) continue;
     names = hwy::TargetName(target) + (names.empty() ? "" : " " + names);
   }
   return names;

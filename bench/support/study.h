@@ -25,7 +25,7 @@ class Study {
 
   /// Prints the table and keeps it, unless it has no rows.
   void add(Table table);
-  /// A number that bench/report holds against a goal.
+  /// A number that bench/report holds against a goal; NaN says that measuring it failed.
   void figure(const std::string& name, double value);
 
   nlohmann::ordered_json to_json() const;

@@ -1,7 +1,9 @@
 #include "bench/support/timing.h"
 
 #include <algorithm>
+#include <barrier>
 #include <limits>
+#include <thread>
 
 namespace barkridge::bench {
 
@@ -33,6 +35,24 @@ std::vector<Samples> take_turns(std::span<const Measurement> measurements, int t
     }
   }
   return samples;
+}
+
+double seconds_on_threads(int threads, const std::function<void(std::size_t)>& work) {
+  const std::size_t count = static_cast<std::size_t>(threads);
+  std::vector<Clock::time_point> starts(count), ends(count);
+  {
+    std::barrier together(threads);
+    std::vector<std::jthread> workers;
+    for (std::size_t i = 0; i < count; ++i) {
+      workers.emplace_back([&, i] {
+        together.arrive_and_wait();
+        starts[i] = Clock::now();
+        work(i);
+        ends[i] = Clock::now();
+      });
+    }
+  }
+  return seconds_between(*std::min_element(starts.begin(), starts.end()), *std::max_element(ends.begin(), ends.end()));
 }
 
 double seconds_per_call(double at_least, const std::function<void()>& work) {

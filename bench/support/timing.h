@@ -10,12 +10,17 @@
 
 namespace barkridge::bench {
 
+using Clock = std::chrono::steady_clock;
+
+inline double seconds_between(Clock::time_point start, Clock::time_point end) {
+  return std::chrono::duration<double>(end - start).count();
+}
+
 class Stopwatch {
  public:
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  double seconds() const { return seconds_between(start_, Clock::now()); }
 
  private:
-  using Clock = std::chrono::steady_clock;
   Clock::time_point start_ = Clock::now();
 };
 
@@ -36,6 +41,10 @@ using Measurement = std::function<double()>;
 
 /// A turn of everything that does not count, then `turns` that do: A B C, A B C, ...
 std::vector<Samples> take_turns(std::span<const Measurement> measurements, int turns);
+
+/// Calls `work(0)` .. `work(threads - 1)` at once, each in a thread of its own, and returns the seconds from the first
+/// one's start to the last one's end.
+double seconds_on_threads(int threads, const std::function<void(std::size_t)>& work);
 
 /// Calls `work` until that has taken this long, and returns the seconds of one call.
 double seconds_per_call(double at_least, const std::function<void()>& work);

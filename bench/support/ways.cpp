@@ -75,22 +75,19 @@ void run_way(Way& way) {
   fmt::print(stderr, "{:.3f} s\n", run->at("total"));
 }
 
-// The number of the way that differs from `way` in its surface, or nothing.
-const Samples* counterpart(const std::vector<Way>& ways, const Way& way, const std::string& surface,
-                           const std::string& name) {
-  for (const Way& other : ways) {
-    if (other.model != way.model || other.threads != way.threads || other.surface != surface) continue;
-    const auto found = other.numbers.find(name);
-    return found == other.numbers.end() ? nullptr : &found->second;
-  }
-  return nullptr;
+const Way* counterpart(const std::vector<Way>& ways, const Way& way, const std::string& surface) {
+  const auto found = std::find_if(ways.begin(), ways.end(), [&](const Way& other) {
+    return other.model == way.model && other.threads == way.threads && other.surface == surface;
+  });
+  return found == ways.end() ? nullptr : &*found;
 }
 
-double ratio(const std::vector<Way>& ways, const Way& way, const std::string& surface, const std::string& to,
-             const std::string& name) {
-  const Samples *a = counterpart(ways, way, surface, name), *b = counterpart(ways, way, to, name);
-  return a && b ? paired_ratio(*a, *b) : kNothing;
+double ratio(const Way& a, const Way& b, const std::string& name) {
+  return a.numbers.empty() || b.numbers.empty() ? kNothing : paired_ratio(a.numbers.at(name), b.numbers.at(name));
 }
+
+// The larger one, NaN if either is.
+double worse(double a, double b) { return std::isnan(a) || std::isnan(b) ? kNothing : std::max(a, b); }
 
 }  // namespace
 
@@ -131,26 +128,24 @@ void run_once(int limit, const std::function<Numbers()>& work) {
   fmt::print("{}\n", nlohmann::json(result).dump());
 }
 
-Table surface_ratios(const std::vector<Way>& ways, const std::string& name) {
-  Table table{.title = "Surfaces against each other: " + name,
-              .columns = {"model", "threads", "ridge/smooth", "bend/ridge"},
+void add_surface_ratios(Study& study, const std::vector<Way>& ways, const std::string& name,
+                        const std::string& prefix) {
+  Table table{.title = fmt::format("Surfaces against each other, {} time", name),
+              .columns = {"model", "threads", "surfaces", "ratio"},
               .rows = {},
               .notes = {}};
-  for (const Way& way : ways) {
-    if (way.surface != "ridge") continue;
-    table.rows.push_back(
-        {way.model, way.threads, ratio(ways, way, "ridge", "smooth", name), ratio(ways, way, "bend", "ridge", name)});
+  for (const auto& [surface, to] : {std::pair("ridge", "smooth"), std::pair("bend", "ridge")}) {
+    double worst = 0;
+    for (const Way& way : ways) {
+      const Way* other = way.surface == surface ? counterpart(ways, way, to) : nullptr;
+      if (!other) continue;
+      const double factor = ratio(way, *other, name);
+      worst = worse(worst, factor);
+      table.rows.push_back({way.model, way.threads, fmt::format("{}/{}", surface, to), factor});
+    }
+    if (worst != 0) study.figure(fmt::format("{}_{}_to_{}", prefix, surface, to), worst);
   }
-  return table;
-}
-
-double largest_ratio(const std::vector<Way>& ways, const std::string& surface, const std::string& to,
-                     const std::string& name) {
-  double largest = kNothing;
-  for (const Way& way : ways) {
-    if (way.surface == surface) largest = std::fmax(largest, ratio(ways, way, surface, to, name));
-  }
-  return largest;
+  study.add(std::move(table));
 }
 
 }  // namespace barkridge::bench

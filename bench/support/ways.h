@@ -36,11 +36,8 @@ void run_in_turns(std::vector<Way>& ways, int turns);
 /// the first call's. Ends itself after `limit` seconds, or when it needs nearly all of the machine's memory.
 void run_once(int limit, const std::function<Numbers()>& work);
 
-/// Ratios of ridge to smooth and of bend to ridge, in the number called `name`, turn by turn.
-Table surface_ratios(const std::vector<Way>& ways, const std::string& name);
-
-/// The largest ratio of one surface to another in that number, over models and threads; NaN without any.
-double largest_ratio(const std::vector<Way>& ways, const std::string& surface, const std::string& to,
-                     const std::string& name);
+/// Adds a table of ratios in the number called `name`, ridge to smooth and bend to ridge, turn by turn; and the largest
+/// of them over models and threads as figures `prefix`_ridge_to_smooth and `prefix`_bend_to_ridge, NaN if one failed.
+void add_surface_ratios(Study& study, const std::vector<Way>& ways, const std::string& name, const std::string& prefix);
 
 }  // namespace barkridge::bench
