@@ -63,6 +63,7 @@ def main():
                      times])
     result.add(f'{options.internodes} internodes, exponent {options.exponent:g}, cell {options.cell_size}',
                ['program', 's', 'least', 'most', 'triangles', 'M triangles/s', 'peak MB', 'rate over Blender\'s'], rows,
+               ([f'Blender {peer[0]["version"]}'] if peer else []) +
                ['evaluation alone, warm: without Blender\'s start and scene; ours from the skeleton on',
                 'metaballs have the mean radius and blend by sum, and run on one thread; '
                 f'ours on {options.threads}'])

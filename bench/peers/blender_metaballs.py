@@ -57,7 +57,8 @@ def main():
         start = time.perf_counter()
         triangles = triangles_of(tree)
         times.append(time.perf_counter() - start)
-    print('RESULT ' + json.dumps({'seconds': sorted(times)[len(times) // 2], 'triangles': triangles}))
+    print('RESULT ' + json.dumps({'seconds': sorted(times)[len(times) // 2], 'triangles': triangles,
+                                    'version': bpy.app.version_string}))
 
 
 main()

@@ -126,11 +126,15 @@ void measure(const Options& options) {
 
   PolygonizeOptions lattice;
   lattice.cell_size = grid.cell;
+  PolygonizeOptions signs_alone = lattice;
+  signs_alone.close_creases = false;
   std::vector<Contourer> contourers{
-      {"barkridge polygonize", [&] { return polygonize(*field, lattice).triangles.size(); }}};
+      {"barkridge polygonize", [&] { return polygonize(*field, lattice).triangles.size(); }},
+      {"barkridge polygonize, signs alone", [&] { return polygonize(*field, signs_alone).triangles.size(); }}};
 #ifdef BARKRIDGE_BENCH_OPENVDB
   const openvdb::FloatGrid::Ptr volume = sparse(grid);
-  contourers.push_back({"OpenVDB volumeToMesh", [volume] { return openvdb_triangles(*volume); }});
+  contourers.push_back(
+      {"OpenVDB " OPENVDB_LIBRARY_VERSION_STRING " volumeToMesh", [volume] { return openvdb_triangles(*volume); }});
 #endif
   std::vector<Measurement> measurements;
   for (const Contourer& contourer : contourers) {

@@ -61,6 +61,11 @@ def trace_seconds(output):
     return float(found[1]) if found else None
 
 
+def povray_version():
+    found = re.search(r'POV-Ray ([0-9][0-9.]*[0-9])', study.run(['povray', '--version'], 10)['output'])
+    return found[1] if found else 'of unknown version'
+
+
 def compare(result, internodes, smoothed):
     """A row for each program; the figure is ridges against the blob, which can only blend."""
     options = result.options
@@ -88,6 +93,8 @@ def rows_of(result, name, runs):
     for program, of in runs.items():
         if not of:
             rows.append([name, program, 'failed'])
+            if program == 'barkridge ridge':
+                result.figure(f'render_{name}_to_povray', None)
             continue
         trace = times = traced = None
         if of is peer:
@@ -120,7 +127,8 @@ def main():
         f'{WIDTH} x {HEIGHT}, {result.options.threads} threads: whole processes, from the skeleton to a PNG',
         ['internodes', 'program', 's', 'least', 'most', 'trace s', 'cpu s', 'peak MB', 'POV-Ray/ours', 'its trace/ours'],
         rows,
-        ['POV-Ray/ours: of whole processes, turn by turn; its trace/ours: what POV-Ray says that tracing alone took '
+        [f'POV-Ray {povray_version()}',
+         'POV-Ray/ours: of whole processes, turn by turn; its trace/ours: what POV-Ray says that tracing alone took '
          'over our whole process',
          'the blob has cylinders of the mean radius and blends by sum; smoothed: +A0.3 +R3 against at most 9 samples'])
     return result.finish()

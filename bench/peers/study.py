@@ -113,7 +113,7 @@ def run(command, limit):
         if child.returncode:
             return None
         output.seek(0)
-        return {'wall': wall, 'cpu': usage.ru_utime + usage.ru_stime, 'peak': usage.ru_maxrss / 1000,
+        return {'wall': wall, 'cpu': usage.ru_utime + usage.ru_stime, 'peak': 1.024e-3 * usage.ru_maxrss,
                 'output': output.read()}
 
 
