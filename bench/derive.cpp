@@ -1,11 +1,11 @@
 // How long does it take to derive 10 million modules, and how much memory?
 
-#include <sys/resource.h>
-
-#include <chrono>
-#include <cstdio>
-
 #include "lsystem/derive.h"
+#include "bench/support/machine.h"
+#include "bench/support/study.h"
+#include "bench/support/timing.h"
+
+namespace barkridge::bench {
 
 namespace {
 
@@ -21,15 +21,23 @@ B(x) --> ~l(x*0.1)
 endlsystem
 )";
 
+void measure(Study& study) {
+  const Stopwatch watch;
+  const Word word = derive(parse_grammar(kTree, "tree.l"));
+  const double seconds = watch.seconds();
+  study.add({.title = "Derivation of a ternary tree",
+             .columns = {"modules", "parameters", "s", "peak MB"},
+             .rows = {{word.modules.size(), word.parameters.size(), seconds, megabytes(peak_memory())}},
+             .notes = {}});
+}
+
 }  // namespace
 
-int main() {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point start = Clock::now();
-  const barkridge::Word word = barkridge::derive(barkridge::parse_grammar(kTree, "tree.l"));
-  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  std::printf("%zu modules, %zu parameters: %.2f s, %.0f MB peak\n", word.modules.size(), word.parameters.size(),
-              seconds, static_cast<double>(usage.ru_maxrss) / 1024);
+}  // namespace barkridge::bench
+
+int main(int argc, char** argv) {
+  using namespace barkridge::bench;
+  return run_study(
+      argc, argv, Study("derive", "How long does it take to derive 10 million modules, and how much memory?"),
+      [](CLI::App&) {}, measure);
 }

@@ -1,0 +1,79 @@
+#include "bench/support/machine.h"
+
+#include <fmt/format.h>
+#include <hwy/highway.h>
+#include <malloc.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include "bench/support/commit.h"
+
+namespace barkridge::bench {
+
+namespace {
+
+// The rest of the first line of `file` that starts with `key`, without blanks and colon before it.
+std::string value_in(const char* file, const std::string& key) {
+  std::ifstream lines(file);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with(key)) continue;
+    const std::size_t start = line.find_first_not_of(": \t", key.size());
+    return start == std::string::npos ? "" : line.substr(start);
+  }
+  return "";
+}
+
+std::size_t kilobytes_in_status(const std::string& key) {
+  const std::string value = value_in("/proc/self/status", key);
+  return value.empty() ? 0 : 1024 * std::stoull(value);
+}
+
+// Of the last minute: processes that wanted to run.
+double load_average() {
+  double load = 0;
+  return ::getloadavg(&load, 1) == 1 ? load : 0.0;
+}
+
+std::string instruction_sets() {
+  std::string names;
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    if (target == HWY_SCALAR || target == HWY_EMU128) continue;
+    names = hwy::TargetName(target) + (names.empty() ? "" : " " + names);
+  }
+  return names;
+}
+
+}  // namespace
+
+nlohmann::ordered_json machine_facts() {
+  const double memory = static_cast<double>(machine_memory());
+  return {{"processor", value_in("/proc/cpuinfo", "model name")},
+          {"cores", core_count()},
+          {"memory", fmt::format("{:.0f} GiB", memory / (1u << 30))},
+          {"instruction sets", instruction_sets()},
+          {"compiler", "g++ " __VERSION__},
+          {"commit", BARKRIDGE_COMMIT},
+          {"load", load_average()}};
+}
+
+int core_count() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
+
+std::size_t machine_memory() {
+  return static_cast<std::size_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+std::size_t resident_memory() { return kilobytes_in_status("VmRSS"); }
+std::size_t peak_memory() { return kilobytes_in_status("VmHWM"); }
+
+void reset_peak_memory() {
+  release_free_memory();
+  std::ofstream("/proc/self/clear_refs") << "5";
+}
+
+void release_free_memory() { ::malloc_trim(0); }
+
+}  // namespace barkridge::bench
