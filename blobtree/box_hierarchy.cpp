@@ -3,6 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
+
+#include <tbb/parallel_sort.h>
+
+#include "blobtree/morton.h"
 
 namespace barkridge {
 
@@ -21,21 +26,31 @@ float rounded_up(double x) {
 
 }  // namespace
 
-BoxHierarchy::BoxHierarchy(std::span<const Box> boxes) : size_(boxes.size()) {
+BoxHierarchy::BoxHierarchy(std::span<const Box> boxes) : numbers_(boxes.size()), places_(boxes.size()) {
   if (boxes.empty()) return;
+  Box all;
+  for (const Box& box : boxes) all = unite(all, box);
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> curve(boxes.size());
+  for (std::uint32_t i = 0; i < curve.size(); ++i) curve[i] = {morton_code(boxes[i].center(), all), i};
+  tbb::parallel_sort(curve.begin(), curve.end());
+  for (std::uint32_t i = 0; i < curve.size(); ++i) {
+    numbers_[i] = curve[i].second;
+    places_[curve[i].second] = i;
+  }
   const auto empty_group = [] {
     Group group;
     for (auto& row : group.lo) row.fill(kInfinity);
     for (auto& row : group.hi) row.fill(-kInfinity);
     return group;
   };
-  levels_.emplace_back((size_ + kWidth - 1) / kWidth, empty_group());
-  for (std::size_t i = 0; i < size_; ++i) {
+  levels_.emplace_back((boxes.size() + kWidth - 1) / kWidth, empty_group());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
     Group& group = levels_[0][i / kWidth];
+    const Box& box = boxes[numbers_[i]];
     for (int axis = 0; axis < 3; ++axis) {
-      if (boxes[i].empty()) continue;
-      group.lo[axis][i % kWidth] = rounded_down(boxes[i].lo[axis]);
-      group.hi[axis][i % kWidth] = rounded_up(boxes[i].hi[axis]);
+      if (box.empty()) continue;
+      group.lo[axis][i % kWidth] = rounded_down(box.lo[axis]);
+      group.hi[axis][i % kWidth] = rounded_up(box.hi[axis]);
     }
   }
   while (levels_.back().size() > 1) {
@@ -66,7 +81,7 @@ unsigned BoxHierarchy::overlapping(const Group& group, const std::array<float, 3
 }
 
 bool BoxHierarchy::find(const Box& region, std::size_t most, std::vector<std::uint32_t>& found) const {
-  if (size_ == 0 || region.empty()) return true;
+  if (numbers_.empty() || region.empty()) return true;
   const std::array<float, 3> lo{rounded_down(region.lo.x), rounded_down(region.lo.y), rounded_down(region.lo.z)};
   const std::array<float, 3> hi{rounded_up(region.hi.x), rounded_up(region.hi.y), rounded_up(region.hi.z)};
   const std::size_t start = found.size();
@@ -83,13 +98,13 @@ bool BoxHierarchy::find(const Box& region, std::size_t most, std::vector<std::ui
     if (level == 0) {
       for (; here.open != 0; here.open &= here.open - 1) {
         if (found.size() - start == most) return false;
-        found.push_back(static_cast<std::uint32_t>(here.group * kWidth) +
-                        static_cast<std::uint32_t>(std::countr_zero(here.open)));
+        found.push_back(numbers_[here.group * kWidth + static_cast<std::size_t>(std::countr_zero(here.open))]);
       }
     }
     if (here.open == 0) {
-      if (++level == levels_.size()) return true;
-      continue;
+      if (++level < levels_.size()) continue;
+      std::sort(found.begin() + static_cast<std::ptrdiff_t>(start), found.end());
+      return true;
     }
     const std::size_t child = here.group * kWidth + static_cast<std::size_t>(std::countr_zero(here.open));
     here.open &= here.open - 1;
@@ -99,13 +114,13 @@ bool BoxHierarchy::find(const Box& region, std::size_t most, std::vector<std::ui
 }
 
 Box BoxHierarchy::box(std::size_t number) const {
-  const Group& group = levels_[0][number / kWidth];
-  const std::size_t k = number % kWidth;
+  const Group& group = levels_[0][places_[number] / kWidth];
+  const std::size_t k = places_[number] % kWidth;
   return {{group.lo[0][k], group.lo[1][k], group.lo[2][k]}, {group.hi[0][k], group.hi[1][k], group.hi[2][k]}};
 }
 
 std::size_t BoxHierarchy::memory() const {
-  std::size_t bytes = 0;
+  std::size_t bytes = (numbers_.capacity() + places_.capacity()) * sizeof(std::uint32_t);
   for (const auto& level : levels_) bytes += level.size() * sizeof(Group);
   return bytes;
 }

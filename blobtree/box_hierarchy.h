@@ -10,9 +10,8 @@
 
 namespace barkridge {
 
-/// A hierarchy over boxes in a given order: every group of eight neighbours has a box around them, every eight groups
-/// one around those, and so on. It needs no links and finds boxes in their order; it is as good as the order is coherent
-/// in space. 27 bytes a box.
+/// A hierarchy over boxes in the order of a space-filling curve: every group of eight neighbours has a box around them,
+/// every eight groups one around those, and so on, without links. 35 bytes a box.
 class BoxHierarchy {
  public:
   BoxHierarchy() = default;
@@ -25,7 +24,7 @@ class BoxHierarchy {
 
   /// A box, rounded outward.
   Box box(std::size_t number) const;
-  std::size_t size() const { return size_; }
+  std::size_t size() const { return numbers_.size(); }
   std::size_t memory() const;
 
  private:
@@ -36,7 +35,8 @@ class BoxHierarchy {
   };
   static unsigned overlapping(const Group& group, const std::array<float, 3>& lo, const std::array<float, 3>& hi);
 
-  std::size_t size_ = 0;
+  std::vector<std::uint32_t> numbers_;  // of the boxes along the curve
+  std::vector<std::uint32_t> places_;   // of the boxes on it
   std::vector<std::vector<Group>> levels_;  // the boxes themselves first, one group last
 };
 

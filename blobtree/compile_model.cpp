@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "blobtree/field_model.h"
+#include "blobtree/morton.h"
 #include "blobtree/operator_bounds.h"
 #include "blobtree/primitive_bounds.h"
 
@@ -23,18 +24,6 @@ std::vector<std::uint32_t> stack_needs(const BlobTree& tree) {
     for (std::uint32_t k = 0; k < of_children.size(); ++k) needs[i] = std::max(needs[i], of_children[k] + k);
   }
   return needs;
-}
-
-// Interleaves the bits of a place in a box, so that neighbours in order are near each other. [Morton 1966]
-std::uint64_t morton_code(const Vec3& p, const Box& box) {
-  std::uint64_t code = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double extent = box.hi[axis] - box.lo[axis];
-    const double t = extent > 0 ? (p[axis] - box.lo[axis]) / extent : 0;
-    const auto place = static_cast<std::uint64_t>(std::clamp(t, 0.0, 1.0) * 0x1FFFFF);
-    for (int bit = 0; bit < 21; ++bit) code |= (place >> bit & 1) << (3 * bit + axis);
-  }
-  return code;
 }
 
 bool is_primitive(const Node& node) { return node.children.empty(); }

@@ -80,10 +80,7 @@ class PartField final : public Field {
     const RayBounds bounds = bound_along(*model_, program_, ray, range, rest);
     const Interval reach{std::max(range.lo, bounds.reach.lo), std::min(range.hi, bounds.reach.hi)};
     if (bounds.field.value.hi < kIsoValue || reach.empty()) return std::nullopt;
-    const auto sample = [&](const Interval& part, std::span<double> values) {
-      evaluate_along(*model_, rest, ray, part, values);
-    };
-    return RaySearch(sample, bounds.field, tolerance, any).run(reach);
+    return search_along(*model_, rest, bounds.field, ray, reach, tolerance, any);
   }
 
   ModelPtr model_;

@@ -20,7 +20,7 @@ std::optional<double> search(const Field& field, const Ray& ray, const Interval&
     return first ? first : search(field, ray, {middle, range.hi}, tolerance, any);
   }
   std::vector<Vec3> points;
-  const auto sample = [&](const Interval& part, std::span<double> values) {
+  const auto sample = [&](const Interval& part, std::span<double, 16> values) {
     points.clear();
     const double step = (part.hi - part.lo) / static_cast<double>(values.size() - 1);
     for (std::size_t i = 0; i < values.size(); ++i) points.push_back(ray.at(part.lo + static_cast<double>(i) * step));

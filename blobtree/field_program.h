@@ -75,9 +75,10 @@ std::size_t primitive_count_of(const FieldProgram& program);
 void evaluate(const FieldModel& model, const FieldProgram& program, std::span<const Vec3> points,
               std::span<double> values, std::span<Vec3> gradients);
 
-/// Evaluates points at equal distances along a part of a ray, its ends among them; single precision about its middle.
-void evaluate_along(const FieldModel& model, const FieldProgram& program, const Ray& ray, const Interval& range,
-                    std::span<double> values);
+/// The smallest t in a range of a ray with F >= kIsoValue, or with `any` any such t, or none [RaySearch]: in single
+/// precision about the range's middle.
+std::optional<double> search_along(const FieldModel& model, const FieldProgram& program, const FieldBounds& bounds,
+                                   const Ray& ray, const Interval& range, double tolerance, bool any);
 
 /// Bounds on a box; and, where `rest` is given, the program of all that can matter there, whose values and gradients in
 /// the box are those of `program` to the bit.

@@ -28,6 +28,14 @@ struct OpenWarp {
 
 bool is_zero(const FieldBounds& bounds) { return bounds.value.lo == 0 && bounds.value.hi == 0; }
 
+void add(FieldBounds& sum, const FieldBounds& summand) {
+  sum.value.lo += summand.value.lo;
+  sum.value.hi += summand.value.hi;
+  sum.slope += summand.slope;
+  sum.second.lo += summand.second.lo;
+  sum.second.hi += summand.second.hi;
+}
+
 // Memory for one thread's walks, kept between calls.
 struct Scratch {
   std::vector<Operand> stack;
@@ -130,11 +138,7 @@ class Bounder {
       const auto kind = static_cast<ConeKind>(reference.kind);
       const ConeBounds bounds = bounds_of_cone(model_.cones[reference.cone], kind);
       if (is_zero(bounds.field)) continue;
-      sum.value.lo += bounds.field.value.lo;
-      sum.value.hi += bounds.field.value.hi;
-      sum.slope += bounds.field.slope;
-      sum.second.lo += bounds.field.second.lo;
-      sum.second.hi += bounds.field.second.hi;
+      add(sum, bounds.field);
       cones_.emplace_back(reference.cone, bounds.steady ? ConeKind::kSteady : kind);
     }
     const std::size_t count = cones_.size() - first;
@@ -317,10 +321,33 @@ FieldBounds bound(const FieldModel& model, const FieldProgram& program, const Bo
   return Bounder(model, box, out, scratch).run(program);
 }
 
+namespace {
+
+// What most programs are by far: a sum of cones.
+RayBounds bound_cones_along(const FieldModel& model, std::span<const ConeReference> cones, const Ray& ray,
+                            const Interval& range, FieldProgram& rest) {
+  RayBounds sum{{{0, 0}, 0, {0, 0}}, {}};
+  for (const ConeReference& reference : cones) {
+    const auto kind = static_cast<ConeKind>(reference.kind);
+    const ConeRayBounds along = bounds_along(model.cones[reference.cone], kind, model.units, ray, range);
+    if (is_zero(along.bounds.field)) continue;
+    add(sum.field, along.bounds.field);
+    sum.reach = {std::min(sum.reach.lo, along.reach.lo), std::max(sum.reach.hi, along.reach.hi)};
+    rest.cones.emplace_back(reference.cone, along.bounds.steady ? ConeKind::kSteady : kind);
+  }
+  if (!rest.cones.empty()) rest.code.push_back({Op::kCones, static_cast<std::uint32_t>(rest.cones.size()), 0});
+  return sum;
+}
+
+}  // namespace
+
 RayBounds bound_along(const FieldModel& model, const FieldProgram& program, const Ray& ray, const Interval& range,
                       FieldProgram& rest) {
-  thread_local Scratch scratch;
   rest.clear();
+  if (program.code.size() == 1 && program.code[0].op == Op::kCones) {
+    return bound_cones_along(model, program.cones, ray, range, rest);
+  }
+  thread_local Scratch scratch;
   const Vec3 a = ray.at(range.lo), b = ray.at(range.hi);
   return Bounder(model, {glm::min(a, b), glm::max(a, b)}, rest, scratch).run(program, ray, range);
 }

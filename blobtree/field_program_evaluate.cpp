@@ -46,6 +46,7 @@ class Machine {
     const FieldProgramDepth depth = depth_of(program);
     numbers_ = scratch.take(capacity * (3 * (depth.warps + 1) + columns() * depth.fields));
     fields_ = numbers_ + 3 * capacity * (depth.warps + 1);
+    has_warps_ = depth.warps > 0;
     scratch.origins.resize(depth.warps + 1);
     scratch.fields.resize(depth.fields);
     for (std::size_t level = 0; level < depth.fields; ++level) scratch.fields[level] = slot(level);
@@ -54,14 +55,19 @@ class Machine {
   float* point_column(std::size_t axis, std::size_t level = 0) { return numbers_ + (3 * level + axis) * capacity_; }
   const FieldColumns& result() const { return scratch_.fields[0]; }
 
-  /// Runs the program on the first `size` points, relative to an origin, in units of the model.
-  void run(const Vec3& origin, std::size_t size) {
+  /// What the points to come are relative to.
+  void set_origin(const Vec3& origin) {
+    scratch_.origins[0] = origin;
+    if (!has_warps_) localize(program_.cones, origin);
+  }
+
+  /// Runs the program on the first `size` points, relative to the origin, in units of the model.
+  void run(std::size_t size) {
     const std::size_t whole = padded(size);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       std::fill(point_column(axis) + size, point_column(axis) + whole, 0.0f);
     }
     std::size_t top = 0, level = 0;
-    scratch_.origins[0] = origin;
     PointBatch points = points_at(0, whole);
     std::vector<FieldColumns>& fields = scratch_.fields;
     for (const FieldInstruction& instruction : program_.code) {
@@ -120,14 +126,23 @@ class Machine {
     for_each_number(field, size, [](float& x) { x = -x; });
   }
 
-  void evaluate_cones(const FieldInstruction& instruction, const PointBatch& points, const FieldColumns& out) {
+  void localize(std::span<const ConeReference> references, const Vec3& origin) {
     std::vector<LocalCone>& cones = scratch_.cones;
     cones.clear();
-    for (const ConeReference& reference : std::span(program_.cones).subspan(instruction.index, instruction.count)) {
-      cones.push_back(local_cone(model_.cones[reference.cone], static_cast<ConeKind>(reference.kind), points.origin,
+    for (const ConeReference& reference : references) {
+      cones.push_back(local_cone(model_.cones[reference.cone], static_cast<ConeKind>(reference.kind), origin,
                                  model_.units.scale));
     }
-    sum_cones(cones, points, out);
+  }
+
+  // Under warps every set of points has an origin of its own.
+  void evaluate_cones(const FieldInstruction& instruction, const PointBatch& points, const FieldColumns& out) {
+    std::size_t first = instruction.index;
+    if (has_warps_) {
+      localize(std::span(program_.cones).subspan(first, instruction.count), points.origin);
+      first = 0;
+    }
+    sum_cones(std::span(scratch_.cones).subspan(first, instruction.count), points, out);
   }
 
   Vec3 place(const PointBatch& p, std::size_t i) const {
@@ -171,6 +186,7 @@ class Machine {
   Scratch& scratch_;
   float* numbers_;
   float* fields_;
+  bool has_warps_;
 };
 
 // The grid point next to a point, about which it is evaluated.
@@ -269,6 +285,7 @@ void evaluate(const FieldModel& model, const FieldProgram& program, std::span<co
   Machine machine(model, program, batch, wants_gradients, scratch_of_thread());
   const FieldColumns& result = machine.result();
   const auto run = [&](const Vec3& origin, std::size_t count, auto index) {
+    machine.set_origin(origin);
     for (std::size_t start = 0; start < count; start += batch) {
       const std::size_t size = std::min(batch, count - start);
       for (std::size_t i = 0; i < size; ++i) {
@@ -277,7 +294,7 @@ void evaluate(const FieldModel& model, const FieldProgram& program, std::span<co
           machine.point_column(axis)[i] = static_cast<float>(p[static_cast<int>(axis)]);
         }
       }
-      machine.run(origin, size);
+      machine.run(size);
       for (std::size_t i = 0; i < size; ++i) {
         values[index(start + i)] = static_cast<double>(result.f[i]);
         if (!wants_gradients) continue;
@@ -296,23 +313,25 @@ void evaluate(const FieldModel& model, const FieldProgram& program, std::span<co
       });
 }
 
-void evaluate_along(const FieldModel& model, const FieldProgram& program, const Ray& ray, const Interval& range,
-                    std::span<double> values) {
-  if (program.code.empty()) {
-    std::fill(values.begin(), values.end(), 0.0);
-    return;
-  }
-  const std::size_t count = values.size();
-  Machine machine(model, program, padded(count), false, scratch_of_thread());
-  const Vec3 direction = model.units.scale * (range.hi - range.lo) / static_cast<double>(count - 1) * ray.direction;
-  const float middle = 0.5f * static_cast<float>(count - 1);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto step = static_cast<float>(direction[static_cast<int>(axis)]);
-    float* column = machine.point_column(axis);
-    for (std::size_t i = 0; i < count; ++i) column[i] = step * (static_cast<float>(i) - middle);
-  }
-  machine.run(ray.at(0.5 * (range.lo + range.hi)), count);
-  for (std::size_t i = 0; i < count; ++i) values[i] = static_cast<double>(machine.result().f[i]);
+std::optional<double> search_along(const FieldModel& model, const FieldProgram& program, const FieldBounds& bounds,
+                                   const Ray& ray, const Interval& range, double tolerance, bool any) {
+  constexpr std::size_t kSamples = kBatchGranule;
+  Machine machine(model, program, kSamples, false, scratch_of_thread());
+  const double middle = 0.5 * (range.lo + range.hi);
+  machine.set_origin(ray.at(middle));
+  const Vec3 direction = model.units.scale * ray.direction;
+  const auto sample = [&](const Interval& part, std::span<double, kSamples> values) {
+    const auto first = static_cast<float>(part.lo - middle);
+    const auto step = static_cast<float>((part.hi - part.lo) / (kSamples - 1));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto slope = static_cast<float>(direction[static_cast<int>(axis)]);
+      float* column = machine.point_column(axis);
+      for (std::size_t i = 0; i < kSamples; ++i) column[i] = slope * (first + step * static_cast<float>(i));
+    }
+    machine.run(kSamples);
+    for (std::size_t i = 0; i < kSamples; ++i) values[i] = static_cast<double>(machine.result().f[i]);
+  };
+  return RaySearch(sample, bounds, tolerance, any).run(range);
 }
 
 }  // namespace barkridge

@@ -92,6 +92,9 @@ void check(const RenderOptions& options) {
   if (!side(options.width) || !side(options.height)) {
     refuse("size", fmt::format("expected sides from 1 to {}, not {}", kLongestSide, size));
   }
+  if (options.bounces < 0 || options.bounces > 1) {
+    refuse("bounces", fmt::format("expected 0 or 1, not {}", options.bounces));
+  }
   if (options.samples_per_pixel < 1 || options.samples_per_pixel > kMostSamples) {
     refuse("spp", fmt::format("expected a number from 1 to {}, not {}", kMostSamples, options.samples_per_pixel));
   }

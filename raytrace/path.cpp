@@ -14,9 +14,10 @@ constexpr double kSecondSkyShare = 0.5;
 
 }  // namespace
 
-PathTracer::PathTracer(const Tracer& tracer, const RenderScene& scene)
+PathTracer::PathTracer(const Tracer& tracer, const RenderScene& scene, int bounces)
     : tracer_(tracer),
       scene_(scene),
+      bounces_(bounces),
       sun_(scene.sun),
       sky_average_(sky_average(scene.sky)),
       bark_(scene.material),
@@ -64,6 +65,7 @@ Color PathTracer::from_sun(const Surface& surface, const Vec3& view, const glm::
 
 Color PathTracer::from_surroundings(const Surface& surface, const Vec3& view, const PixelSampler& sampler,
                                     int sample) const {
+  if (bounces_ == 0) return sky_average_ * surface.scattering->albedo();
   const std::optional<ScatteredDirection> scattered = surface.scattering->sample(
       surface.normal, view, sampler.pair(sample, Dimension::kBounce), sampler.pair(sample, Dimension::kLobe).x);
   if (!scattered) return Color(0);

@@ -21,7 +21,7 @@ struct Radiance {
 /// and for the surfaces around, which are themselves lit by the sun with shadows and by the sky's average.
 class PathTracer {
  public:
-  PathTracer(const Tracer& tracer, const RenderScene& scene);
+  PathTracer(const Tracer& tracer, const RenderScene& scene, int bounces);
 
   /// One sample of what arrives at the ray's origin from its direction.
   Radiance along(const Ray& ray, const PixelSampler& sampler, int sample) const;
@@ -42,6 +42,7 @@ class PathTracer {
 
   const Tracer& tracer_;
   const RenderScene& scene_;
+  int bounces_;
   SunDisc sun_;
   Color sky_average_;
   Scattering bark_;

@@ -58,7 +58,7 @@ class TileRenderer {
   TileRenderer(const Tracer& tracer, const RenderScene& scene, const RenderOptions& options)
       : options_(options),
         camera_(scene.camera, options.width, options.height),
-        path_(tracer, scene),
+        path_(tracer, scene, options.bounces),
         layout_(options.seed, options.width, options.height, options.samples_per_pixel) {}
 
   // Renders the pixels of `tile`, and the first samples of those around it, which decide about them too.

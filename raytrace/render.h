@@ -73,6 +73,9 @@ struct RenderOptions {
   int width = 768, height = 1024;
   /// Most samples a pixel; they are spent where neighbouring samples differ.
   int samples_per_pixel = 9;
+  /// 1: light that was scattered once arrives from sky and surfaces around, with their shadows. 0: only the sun has
+  /// shadows, and the sky lights every surface as if nothing stood before it.
+  int bounces = 1;
   std::uint64_t seed = 0;
   /// The part to render; zero width means all.
   PixelRegion region;

@@ -122,6 +122,7 @@ void write_picture(const Image& image, const Scene& scene, const Model& model, c
               {{"barkridge/version", version()},
                {"barkridge/scene_sha256", scene_hash(scene, model)},
                {"barkridge/seed", fmt::format("{}", scene.image.seed)},
+               {"barkridge/bounces", fmt::format("{}", scene.image.bounces)},
                {"barkridge/samples_per_pixel", fmt::format("{}", scene.image.samples_per_pixel)}});
 }
 

@@ -401,6 +401,9 @@ void add_image_keys(Keys& keys) {
       "image.samples_per_pixel", 1, 65536, [](auto& s) -> auto& { return s.image.samples_per_pixel; },
       "Most samples a pixel; they are spent where neighbours differ."));
   keys.push_back(integer(
+      "image.bounces", 0, 1, [](auto& s) -> auto& { return s.image.bounces; },
+      "Whether scattered light from sky and surfaces counts, with its shadows: 1, or 0 for the sun's shadows only."));
+  keys.push_back(integer(
       "image.seed", 0, kMost, [](auto& s) -> auto& { return s.image.seed; },
       "Seed of all random numbers of the picture."));
 }

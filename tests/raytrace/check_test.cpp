@@ -71,6 +71,7 @@ TEST_CASE("a picture's bad settings are named") {
   CHECK(complaint_about([](O& o) { o.height = 65537; }) == "size");
   CHECK(complaint_about([](O& o) { o.width = o.height = 65536; }) == "size");
   CHECK(complaint_about([](O& o) { o.samples_per_pixel = 0; }) == "spp");
+  CHECK(complaint_about([](O& o) { o.bounces = 2; }) == "bounces");
   CHECK(complaint_about([](O& o) { o.samples_per_pixel = 65537; }) == "spp");
   CHECK(complaint_about([](O& o) { o.region = {700, 0, 69, 1}; }) == "region");
   CHECK(complaint_about([](O& o) { o.region = {-1, 0, 5, 5}; }) == "region");
