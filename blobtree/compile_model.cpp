@@ -26,6 +26,22 @@ std::vector<std::uint32_t> stack_needs(const BlobTree& tree) {
   return needs;
 }
 
+// A primitive's support as a box in a frame; for cones along the frame's axis that is much less than the frame's box
+// around the box in the world.
+Box support_in_frame(const Node& node, const Box& support, const Warp::Framed& frame) {
+  return std::visit(
+      [&](auto what) -> Box {
+        if constexpr (std::is_same_v<decltype(what), Cone> || std::is_same_v<decltype(what), FadedCone>) {
+          what.base = frame.to_local(what.base);
+          what.tip = frame.to_local(what.tip);
+          return support_of(what);
+        } else {
+          return frame.to_local(support);
+        }
+      },
+      node.what);
+}
+
 bool is_primitive(const Node& node) { return node.children.empty(); }
 
 class ModelCompiler {
@@ -198,7 +214,9 @@ class ModelCompiler {
     for (const NodeId id : waiting_.back()) {
       std::visit([&](const auto& what) { write_primitive(what, id); }, tree_.nodes[id].what);
       model_->sums.push_back(sum);
-      boxes_.push_back(box_in_world(*model_, supports_[id], sum));
+      boxes_.push_back(box_in_world(*model_, sum, [&](const Warp::Framed* frame) {
+        return frame ? support_in_frame(tree_.nodes[id], supports_[id], *frame) : supports_[id];
+      }));
     }
     waiting_.pop_back();
   }

@@ -1,4 +1,5 @@
 #include <array>
+#include <cmath>
 
 #include "blobtree/field_model.h"
 #include "blobtree/ray_search.h"
@@ -80,6 +81,13 @@ class PartField final : public Field {
     const RayBounds bounds = bound_along(*model_, program_, ray, range, rest);
     const Interval reach{std::max(range.lo, bounds.reach.lo), std::min(range.hi, bounds.reach.hi)};
     if (bounds.field.value.hi < kIsoValue || reach.empty()) return std::nullopt;
+    // Under warps only short pieces have good bounds.
+    constexpr double kMostVariation = 24;
+    const double length = reach.hi - reach.lo, middle = 0.5 * (reach.lo + reach.hi);
+    if (std::isinf(bounds.field.second.lo) && bounds.field.slope * length > kMostVariation && length > 2 * tolerance) {
+      const std::optional<double> first = search(ray, {reach.lo, middle}, tolerance, any);
+      return first ? first : search(ray, {middle, reach.hi}, tolerance, any);
+    }
     return search_along(*model_, rest, bounds.field, ray, reach, tolerance, any);
   }
 

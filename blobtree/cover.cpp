@@ -50,9 +50,12 @@ struct Tube {
     const double radius = base_radius + std::max(taper * from, taper * to);
     return 2 * u * radius / std::sqrt(1 - 4 * u * u * taper * taper);
   }
-  Box box(double u, double from, double to) const {
+  // In the world, or in a frame.
+  Box box(double u, double from, double to, const Warp::Framed* frame) const {
     const double radius = reach(u, from, to);
-    return unite(around_disc(base + from * axis, axis, radius), around_disc(base + to * axis, axis, radius));
+    const Vec3 start = frame ? frame->to_local(base) : base, along_axis = frame ? frame->to_local(base + axis) - start : axis;
+    return unite(around_disc(start + from * along_axis, along_axis, radius),
+                 around_disc(start + to * along_axis, along_axis, radius));
   }
 };
 
@@ -100,8 +103,8 @@ class Cover {
   void cover(std::uint32_t primitive, std::vector<Box>& boxes) const {
     const std::uint32_t sum = model_.sums[primitive];
     if (only_takes_away(sum)) return;
-    if (const FieldModel::Other* other = model_.other_at(primitive)) {
-      boxes.push_back(intersect(box_in_world(model_, other->support, sum), model_.support));
+    if (model_.other_at(primitive)) {
+      boxes.push_back(intersect(model_.supports.box(primitive), model_.support));
       return;
     }
     const Tube tube = tube_of(model_.cones[primitive], model_.kinds[primitive], model_.units.scale);
@@ -114,11 +117,14 @@ class Cover {
     const double step = (tube.along.hi - tube.along.lo) / pieces;
     for (int i = 0; i < pieces; ++i) {
       const double from = tube.along.lo + i * step, to = i + 1 < pieces ? from + step : tube.along.hi;
-      const Box support = intersect(box_in_world(model_, tube.box(1, from, to), sum), model_.support);
+      const auto box_of_level = [&](double u) {
+        return box_in_world(model_, sum, [&](const Warp::Framed* frame) { return tube.box(u, from, to, frame); });
+      };
+      const Box support = intersect(box_of_level(1), model_.support);
       static const std::array<double, kMostCounted + 1> kDistances = level_distances();
       const std::size_t count = count_in(support);
       const double u = count <= kMostCounted ? kDistances[std::max<std::size_t>(1, count)] : 1;
-      const Box box = u < 1 ? intersect(support, box_in_world(model_, tube.box(u, from, to), sum)) : support;
+      const Box box = u < 1 ? intersect(support, box_of_level(u)) : support;
       if (!box.empty()) boxes.push_back(box);
     }
   }
@@ -146,13 +152,5 @@ class Cover {
 }  // namespace
 
 std::vector<Box> cover_of(const FieldModel& model) { return Cover(model).run(); }
-
-Box box_in_world(const FieldModel& model, Box box, std::uint32_t sum) {
-  for (std::uint32_t at = model.operators[sum].kept_above; at != kNoOperator; at = model.operators[at].kept_above) {
-    const FieldOperator& node = model.operators[at];
-    if (node.op == Op::kEnterWarp) box = model.warps[node.index].support(box);
-  }
-  return box;
-}
 
 }  // namespace barkridge

@@ -85,7 +85,25 @@ void assemble(const FieldModel& model, std::span<const std::uint32_t> primitives
 /// iso-value with the help of those that matter there.
 std::vector<Box> cover_of(const FieldModel& model);
 
-/// Where all warps above a sum move a box.
-Box box_in_world(const FieldModel& model, Box box, std::uint32_t sum);
+/// Where all warps above a sum move what a box wraps; `box_in(frame)` gives the box in a bend's frame, or in the world
+/// where there is none.
+template <typename BoxIn>
+Box box_in_world(const FieldModel& model, std::uint32_t sum, const BoxIn& box_in) {
+  Box box;
+  bool is_moved = false;
+  for (std::uint32_t at = model.operators[sum].kept_above; at != kNoOperator; at = model.operators[at].kept_above) {
+    if (model.operators[at].op != FieldInstruction::Op::kEnterWarp) continue;
+    const Warp& warp = model.warps[model.operators[at].index];
+    if (is_moved) {
+      box = warp.support(box);
+    } else if (const Warp::BendData* bend = warp.bend()) {
+      box = warp.support_of_framed(box_in(&bend->frame));
+    } else {
+      box = warp.support(box_in(nullptr));
+    }
+    is_moved = true;
+  }
+  return is_moved ? box : box_in(nullptr);
+}
 
 }  // namespace barkridge

@@ -23,6 +23,7 @@ struct Operand {
 struct OpenWarp {
   Box outer_box;
   double stretch;
+  double curvature;
   std::size_t start;
 };
 
@@ -167,7 +168,7 @@ class Bounder {
 
   void enter(const FieldInstruction& instruction) {
     const WarpedBox warped = model_.warps[instruction.index].map(box_);
-    warps_.push_back({box_, warped.stretch, rest_.size()});
+    warps_.push_back({box_, warped.stretch, warped.curvature, rest_.size()});
     rest_.push_back(instruction);
     box_ = warped.box;
     reach_ = range_;
@@ -183,8 +184,11 @@ class Bounder {
       rest_.resize(warp.start);
       return;
     }
+    // (F o w)'' is F'' along w' plus F' along w''.
+    const double mixed = top.bounds.slope * warp.curvature, stretch2 = warp.stretch * warp.stretch;
+    top.bounds.second = {std::min(0.0, stretch2 * top.bounds.second.lo) - mixed,
+                         std::max(0.0, stretch2 * top.bounds.second.hi) + mixed};
     top.bounds.slope *= warp.stretch;
-    top.bounds.second = FieldBounds{}.second;
     rest_.push_back(instruction);
   }
 

@@ -5,6 +5,7 @@
 
 #include <glm/common.hpp>
 
+#include "blobtree/bend_kernels.h"
 #include "blobtree/operator_kernels.h"
 #include "blobtree/primitive.h"
 
@@ -164,6 +165,9 @@ class Machine {
   void enter(const Warp& warp, const PointBatch& p, std::size_t level) {
     const Vec3 origin = warp.map(p.origin);
     scratch_.origins[level + 1] = origin;
+    if (const Warp::BendData* bend = warp.bend()) {
+      return bend_points(*bend, model_.units.scale, p, points_at(level + 1, p.size));
+    }
     for (std::size_t i = 0; i < p.size; ++i) {
       const Vec3 q = model_.units.scale * (warp.map(place(p, i)) - origin);
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -172,6 +176,7 @@ class Machine {
     }
   }
   void leave(const Warp& warp, const PointBatch& p, const FieldColumns& field) const {
+    if (const Warp::BendData* bend = warp.bend()) return bend_gradients(*bend, model_.units.scale, p, field);
     for (std::size_t i = 0; i < p.size; ++i) {
       const Mat3 jacobian = warp.map_with_jacobian(place(p, i)).jacobian;
       const Vec3 gradient(field.gradient[0][i], field.gradient[1][i], field.gradient[2][i]);

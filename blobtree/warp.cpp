@@ -134,6 +134,11 @@ WarpedBox Warp::map_local(const BendData& d, const Box& box) {
     // Nearer to the centre than the child reaches, the field is zero.
     const double nearest = std::max({rho.lo, d.arc_radius - d.reach, 1e-9 * d.arc_radius});
     result.stretch = std::max(1.0, d.arc_radius / nearest);
+    // Across an end of the arc the Jacobian jumps.
+    const bool is_within = angle.lo >= -d.half_angle && angle.hi <= d.half_angle;
+    if (is_within) result.curvature = std::sqrt(1 + result.stretch * result.stretch) / nearest;
+  } else {
+    result.curvature = 0;
   }
   const auto unite_straight_end = [&](double turn) {
     const double sine = std::sin(turn), cosine = std::cos(turn);
@@ -279,13 +284,18 @@ WarpedBox Warp::map(const Box& box) const {
   return std::visit(
       [&](const auto& d) -> WarpedBox {
         if constexpr (std::is_same_v<std::decay_t<decltype(d)>, AffineData>) {
-          return {image(d.inverse, -(d.inverse * d.offset), box), d.stretch};
+          return {image(d.inverse, -(d.inverse * d.offset), box), d.stretch, 0};
         } else {
           const WarpedBox local = map_local(d, d.frame.to_local(box));
-          return {d.frame.to_world(local.box), local.stretch};
+          return {d.frame.to_world(local.box), local.stretch, local.curvature};
         }
       },
       data_);
+}
+
+Box Warp::support_of_framed(const Box& local) const {
+  const BendData& d = std::get<BendData>(data_);
+  return d.frame.to_world(support_local(d, local));
 }
 
 Box Warp::support(const Box& child_support) const {

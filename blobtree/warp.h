@@ -1,6 +1,7 @@
 #pragma once
 // Warps: the field at p is the child's at w(p). [docs/field.md, "Warps" and "Bend"]
 
+#include <limits>
 #include <variant>
 
 #include "blobtree/tree.h"
@@ -17,25 +18,15 @@ struct WarpedPoint {
 struct WarpedBox {
   Box box;
   double stretch = 1;
+  /// A bound of the length of w's second derivative along lines there; infinite where it is not known.
+  double curvature = std::numeric_limits<double>::infinity();
 };
 
 /// A warp prepared for evaluation. `reach` is how far the child's field extends from the warp's axis: only bends use
 /// it, whose stretch is bounded where the child is.
 class Warp {
  public:
-  Warp(const Bend& bend, const Box& child_support);
-  explicit Warp(const Twist& twist);
-  explicit Warp(const Taper& taper);
-  explicit Warp(const Affine& affine);
-
-  Vec3 map(const Vec3& p) const { return map_with_jacobian(p).point; }
-  WarpedPoint map_with_jacobian(const Vec3& p) const;
-  WarpedBox map(const Box& box) const;
-  /// A box that holds every p with w(p) in `child_support`.
-  Box support(const Box& child_support) const;
-
- private:
-  // All but affine warps act in a frame: x along the axis from `origin`, y and z across it.
+  /// All but affine warps act in a frame: x along the axis from `origin`, y and z across it.
   struct Framed {
     Vec3 origin;
     Mat3 axes;  // columns
@@ -48,6 +39,23 @@ class Warp {
     Framed frame;  // origin at the base, x along the chord, y towards the bulge
     double half_angle, arc_radius, arc, chord, reach;
   };
+
+  Warp(const Bend& bend, const Box& child_support);
+  explicit Warp(const Twist& twist);
+  explicit Warp(const Taper& taper);
+  explicit Warp(const Affine& affine);
+
+  Vec3 map(const Vec3& p) const { return map_with_jacobian(p).point; }
+  WarpedPoint map_with_jacobian(const Vec3& p) const;
+  WarpedBox map(const Box& box) const;
+  /// The bend, if it is one: bends have kernels of their own [blobtree/bend_kernels.h].
+  const BendData* bend() const { return std::get_if<BendData>(&data_); }
+  /// A box that holds every p with w(p) in `child_support`.
+  Box support(const Box& child_support) const;
+  /// The same for a bend, from a box in its frame: one along the axis, which a box in the world wraps but loosely.
+  Box support_of_framed(const Box& local) const;
+
+ private:
   struct TwistData {
     Framed frame;
     double radians_per_unit;
