@@ -56,6 +56,7 @@ void run(const Options& options) {
   picture.width = options.width;
   picture.height = options.height;
   picture.samples_per_pixel = 1;
+  picture.bounces = 0;
   run_once(options.limit, [&] {
     const Stopwatch all;
     const BlobTree tree = tree_from_skeleton(skeleton, surface);

@@ -301,11 +301,13 @@ Interval part_within(const Interval& heights, double height, double slope, const
 }  // namespace
 
 ConeRayBounds bounds_along(const ConeRecord& c, ConeKind kind, const ModelUnits& units, const Ray& ray,
-                           const Interval& range) {
+                           const Interval& range, double slack) {
   // Only the part within the axial support counts.
   const Vec3 axis(c.axis);
   const double y_slope = glm::dot(ray.direction, axis), y_origin = units.scale * glm::dot(ray.origin - c.base, axis);
-  const Interval part = part_within(axial_support(c), y_origin, units.scale * y_slope, range);
+  const double off = units.scale * slack;
+  const Interval support = axial_support(c), widened{support.lo - off, support.hi + off};
+  const Interval part = part_within(widened, y_origin, units.scale * y_slope, range);
   if (part.empty()) return {};
   const double middle = 0.5 * (part.lo + part.hi), half = 0.5 * units.scale * (part.hi - part.lo);
   const Vec3 from_base = units.scale * (ray.at(middle) - c.base);
@@ -319,7 +321,7 @@ ConeRayBounds bounds_along(const ConeRecord& c, ConeKind kind, const ModelUnits&
   line.nearest = -glm::dot(from_base, ray.direction);
 
   const double rounding =
-      kRounding * (std::abs(line.y) + half + c.length + c.base_radius) + place_rounding(units);
+      kRounding * (std::abs(line.y) + half + c.length + c.base_radius) + place_rounding(units) + off;
   const double y_reach = std::abs(line.y_slope) * half + rounding;
   const Interval along{line.y - y_reach, line.y + y_reach};
   Setting setting;
@@ -330,13 +332,13 @@ ConeRayBounds bounds_along(const ConeRecord& c, ConeKind kind, const ModelUnits&
   if (line.rho2(closest) >= lateral * lateral) return {};
   setting.weight = weight_range(c, kind, along, setting.rise, setting.fall);
   if (setting.weight.hi <= 0) return {};
-  const double rho_hi = std::min(lateral, std::sqrt(std::max(line.rho2(-half), line.rho2(half))));
+  const double rho_hi = std::min(lateral, std::sqrt(std::max(line.rho2(-half), line.rho2(half))) + off);
   setting.distance = distance_slope(c, kind, setting.limits, {along, rho_hi});
 
   const auto distance = [&](double tau) {
     return distance_at(c, kind, setting.limits, line.height(tau), line.rho2(tau));
   };
-  const double slope = setting.distance.slope, slack = slope * place_rounding(units);
+  const double slope = setting.distance.slope, margin = slope * (place_rounding(units) + off);
   FieldBounds g;
   Interval reach{-half, half};
   if (setting.distance.is_limited) {
@@ -344,13 +346,14 @@ ConeRayBounds bounds_along(const ConeRecord& c, ConeKind kind, const ModelUnits&
   } else {
     // Level sets of u are convex: along a line it falls, then rises.
     const double least = distance(std::clamp(nearest_approach(c, setting.limits, line), -half, half));
-    const double lo = std::max(0.0, least * (1 - 4 * kRounding) - slack - kRounding);
+    const double lo = std::max(0.0, least * (1 - 4 * kRounding) - margin - kRounding);
     if (lo >= 1) return {};
-    const double hi = std::max(distance(-half), distance(half)) * (1 + kRounding) + slack + kRounding;
+    const double hi = std::max(distance(-half), distance(half)) * (1 + kRounding) + margin + kRounding;
     g = falloff_bounds_between({lo, hi}, slope);
     if (setting.distance.is_unlimited) reach = support_along(c, line, half);
   }
-  if (part.lo > range.lo || part.hi < range.hi) g.value.lo = 0;
+  if (part.lo > range.lo || part.hi < range.hi || slack > 0) g.value.lo = 0;
+  if (slack > 0) reach = {-half, half};
   return {weighted(c, setting, g, units), {middle + reach.lo / units.scale, middle + reach.hi / units.scale}};
 }
 

@@ -56,12 +56,13 @@ struct ConeBounds {
 /// size. [docs/field.md, "Bounds"]
 ConeBounds bounds_of(const ConeRecord& cone, ConeKind kind, const ModelUnits& units, const Box& box);
 
-/// The same along a piece of a ray, and where along it the field can be other than zero.
+/// The same along a piece of a ray, and all curves that stay within `slack` of it, point by point; and where along it
+/// the field can be other than zero.
 struct ConeRayBounds {
   ConeBounds bounds;
   Interval reach;
 };
 ConeRayBounds bounds_along(const ConeRecord& cone, ConeKind kind, const ModelUnits& units, const Ray& ray,
-                           const Interval& range);
+                           const Interval& range, double slack = 0);
 
 }  // namespace barkridge

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "blobtree/contact.h"
@@ -24,6 +25,7 @@ struct OpenWarp {
   Box outer_box;
   double stretch;
   double curvature;
+  double jump;
   std::size_t start;
 };
 
@@ -147,7 +149,11 @@ class Bounder {
   }
 
   ConeBounds bounds_of_cone(const ConeRecord& cone, ConeKind kind) {
-    if (!ray_ || !warps_.empty()) return bounds_of(cone, kind, model_.units, box_);
+    if (!ray_ || warps_.size() > 1) return bounds_of(cone, kind, model_.units, box_);
+    if (warps_.size() == 1) {
+      if (!std::isfinite(chord_slack_)) return bounds_of(cone, kind, model_.units, box_);
+      return bounds_along(cone, kind, model_.units, chord_, chord_range_, chord_slack_).bounds;
+    }
     const ConeRayBounds along = bounds_along(cone, kind, model_.units, *ray_, range_);
     reach_ = {std::min(reach_.lo, along.reach.lo), std::max(reach_.hi, along.reach.hi)};
     return along.bounds;
@@ -168,10 +174,21 @@ class Bounder {
 
   void enter(const FieldInstruction& instruction) {
     const WarpedBox warped = model_.warps[instruction.index].map(box_);
-    warps_.push_back({box_, warped.stretch, warped.curvature, rest_.size()});
+    warps_.push_back({box_, warped.stretch, warped.curvature, warped.jump, rest_.size()});
     rest_.push_back(instruction);
     box_ = warped.box;
     reach_ = range_;
+    if (ray_ && warps_.size() == 1) find_chord(model_.warps[instruction.index], warped);
+  }
+
+  // Under a warp the ray's piece is a curve; it stays near the chord of its ends.
+  void find_chord(const Warp& warp, const WarpedBox& warped) {
+    const Vec3 a = warp.map(ray_->at(range_.lo)), b = warp.map(ray_->at(range_.hi));
+    const double length = range_.hi - range_.lo, chord = glm::distance(a, b);
+    chord_slack_ = 0.25 * warped.jump * length + 0.125 * warped.curvature * length * length;
+    if (!(chord > 0)) chord_slack_ = std::numeric_limits<double>::infinity();
+    chord_ = {a, (b - a) / chord};
+    chord_range_ = {0, chord};
   }
 
   void leave(const FieldInstruction& instruction) {
@@ -185,7 +202,8 @@ class Bounder {
       return;
     }
     // (F o w)'' is F'' along w' plus F' along w''.
-    const double mixed = top.bounds.slope * warp.curvature, stretch2 = warp.stretch * warp.stretch;
+    const double curvature = warp.jump > 0 ? std::numeric_limits<double>::infinity() : warp.curvature;
+    const double mixed = top.bounds.slope > 0 ? top.bounds.slope * curvature : 0, stretch2 = warp.stretch * warp.stretch;
     top.bounds.second = {std::min(0.0, stretch2 * top.bounds.second.lo) - mixed,
                          std::max(0.0, stretch2 * top.bounds.second.hi) + mixed};
     top.bounds.slope *= warp.stretch;
@@ -312,6 +330,9 @@ class Bounder {
 
   const Ray* ray_ = nullptr;
   Interval range_;
+  Ray chord_;
+  Interval chord_range_;
+  double chord_slack_ = 0;
   Interval reach_;
 };
 

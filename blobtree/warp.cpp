@@ -136,7 +136,8 @@ WarpedBox Warp::map_local(const BendData& d, const Box& box) {
     result.stretch = std::max(1.0, d.arc_radius / nearest);
     // Across an end of the arc the Jacobian jumps.
     const bool is_within = angle.lo >= -d.half_angle && angle.hi <= d.half_angle;
-    if (is_within) result.curvature = std::sqrt(1 + result.stretch * result.stretch) / nearest;
+    result.curvature = std::sqrt(1 + result.stretch * result.stretch) / nearest;
+    if (!is_within) result.jump = 2 * std::max(result.stretch - 1, 1 - d.arc_radius / std::max(rho.hi, nearest));
   } else {
     result.curvature = 0;
   }
@@ -284,10 +285,10 @@ WarpedBox Warp::map(const Box& box) const {
   return std::visit(
       [&](const auto& d) -> WarpedBox {
         if constexpr (std::is_same_v<std::decay_t<decltype(d)>, AffineData>) {
-          return {image(d.inverse, -(d.inverse * d.offset), box), d.stretch, 0};
+          return {image(d.inverse, -(d.inverse * d.offset), box), d.stretch, 0, 0};
         } else {
           const WarpedBox local = map_local(d, d.frame.to_local(box));
-          return {d.frame.to_world(local.box), local.stretch, local.curvature};
+          return {d.frame.to_world(local.box), local.stretch, local.curvature, local.jump};
         }
       },
       data_);

@@ -18,8 +18,11 @@ struct WarpedPoint {
 struct WarpedBox {
   Box box;
   double stretch = 1;
-  /// A bound of the length of w's second derivative along lines there; infinite where it is not known.
+  /// A bound of the length of w's second derivative along lines there, but for jumps of the first; infinite where it is
+  /// not known.
   double curvature = std::numeric_limits<double>::infinity();
+  /// A bound of all jumps of w's first derivative along lines.
+  double jump = 0;
 };
 
 /// A warp prepared for evaluation. `reach` is how far the child's field extends from the warp's axis: only bends use

@@ -34,8 +34,8 @@ class Tracer {
   Tracer& operator=(Tracer&&) noexcept;
 
   /// The first point of the solid along the ray with t in [t_min, t_max]; that is t_min for a ray that starts inside.
-  /// Nothing thicker than `tolerance()` along the ray is missed, at any distance; t is exact to about 1e-12 of the
-  /// scene's size where the ray meets the surface at an angle, and to `tolerance()` where it grazes.
+  /// Nothing is missed that is thicker than `tolerance()` along the ray and that the field exceeds the iso-value in by
+  /// more than 1e-5, at any distance; t is exact to `tolerance()`.
   std::optional<Hit> first_hit(const Ray& ray, double t_min = 0,
                                double t_max = std::numeric_limits<double>::infinity()) const;
 

@@ -52,6 +52,8 @@ intensity = 0
 enabled = false
 [material]
 specular = 0
+[image]
+bounces = 0
 '''
 
 
