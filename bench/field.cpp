@@ -22,7 +22,7 @@ namespace barkridge::bench {
 namespace {
 
 constexpr std::size_t kPoints = 6144, kPrimitives = 200;
-constexpr Box kBlock{Vec3(0), Vec3(1)};
+constexpr Box kBlock{Vec3(-0.5), Vec3(0.5)};
 
 struct Options {
   std::set<int> threads{1, core_count()};

@@ -1,5 +1,7 @@
 #include "blobtree/cone_kernels.h"
 
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "blobtree/cone_kernels.cpp"
 #include <hwy/foreach_target.h>  // compiles the rest of this file once for each instruction set
@@ -13,7 +15,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<float, kBatchGranule>;
 using Vec = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
-constexpr std::size_t kLanes = hn::MaxLanes(Tag());
 
 HWY_INLINE Vec constant(float x) { return hn::Set(Tag(), x); }
 HWY_INLINE Vec clamped(Vec x, Vec lo, Vec hi) { return hn::Min(hn::Max(x, lo), hi); }
@@ -219,46 +220,47 @@ HWY_INLINE void add_faded(const LocalCone& c, Vec x, Vec y, Vec z, Accumulator& 
   }
 }
 
-// kVectors vectors of points from `i` on, so that each cone's numbers are loaded once for all of them.
-template <bool kGradients, int kVectors>
-HWY_INLINE void sum_block(std::span<const LocalCone> cones, const PointBatch& p, std::size_t i,
-                          const FieldColumns& out) {
+// Adds one cone at all points: its numbers, a copy that no column can alias, stay in registers meanwhile.
+template <bool kGradients, ConeKind kKind>
+void add_cone(const LocalCone c, const PointBatch& p, const FieldColumns& out) {
   const Tag d;
-  Vec x[kVectors], y[kVectors], z[kVectors];
-  Accumulator sum[kVectors];
-  for (int k = 0; k < kVectors; ++k) {
-    const std::size_t at = i + static_cast<std::size_t>(k) * kLanes;
-    x[k] = hn::LoadU(d, p.at[0] + at);
-    y[k] = hn::LoadU(d, p.at[1] + at);
-    z[k] = hn::LoadU(d, p.at[2] + at);
-    sum[k] = {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-  }
-  for (const LocalCone& c : cones) {
-    if (c.kind == ConeKind::kFaded) {
-      for (int k = 0; k < kVectors; ++k) add_faded<kGradients>(c, x[k], y[k], z[k], sum[k]);
-    } else if (c.kind == ConeKind::kPlain) {
-      for (int k = 0; k < kVectors; ++k) add_plain<kGradients, true>(c, x[k], y[k], z[k], sum[k]);
-    } else {
-      for (int k = 0; k < kVectors; ++k) add_plain<kGradients, false>(c, x[k], y[k], z[k], sum[k]);
-    }
-  }
-  for (int k = 0; k < kVectors; ++k) {
-    const std::size_t at = i + static_cast<std::size_t>(k) * kLanes;
-    hn::StoreU(sum[k].f, d, out.f + at);
+  for (std::size_t i = 0; i < p.size; i += hn::Lanes(d)) {
+    const Vec x = hn::LoadU(d, p.at[0] + i), y = hn::LoadU(d, p.at[1] + i), z = hn::LoadU(d, p.at[2] + i);
+    Accumulator sum{hn::LoadU(d, out.f + i), {}, {}, {}};
     if constexpr (kGradients) {
-      hn::StoreU(sum[k].gx, d, out.gradient[0] + at);
-      hn::StoreU(sum[k].gy, d, out.gradient[1] + at);
-      hn::StoreU(sum[k].gz, d, out.gradient[2] + at);
+      sum.gx = hn::LoadU(d, out.gradient[0] + i);
+      sum.gy = hn::LoadU(d, out.gradient[1] + i);
+      sum.gz = hn::LoadU(d, out.gradient[2] + i);
+    }
+    if constexpr (kKind == ConeKind::kFaded) {
+      add_faded<kGradients>(c, x, y, z, sum);
+    } else {
+      add_plain<kGradients, kKind == ConeKind::kPlain>(c, x, y, z, sum);
+    }
+    hn::StoreU(sum.f, d, out.f + i);
+    if constexpr (kGradients) {
+      hn::StoreU(sum.gx, d, out.gradient[0] + i);
+      hn::StoreU(sum.gy, d, out.gradient[1] + i);
+      hn::StoreU(sum.gz, d, out.gradient[2] + i);
     }
   }
 }
 
 template <bool kGradients>
 void sum_all(std::span<const LocalCone> cones, const PointBatch& p, const FieldColumns& out) {
-  constexpr int kVectors = kGradients ? 1 : 2;
-  std::size_t i = 0;
-  for (; i + kVectors * kLanes <= p.size; i += kVectors * kLanes) sum_block<kGradients, kVectors>(cones, p, i, out);
-  for (; i < p.size; i += kLanes) sum_block<kGradients, 1>(cones, p, i, out);
+  std::fill_n(out.f, p.size, 0.0f);
+  if constexpr (kGradients) {
+    for (float* column : out.gradient) std::fill_n(column, p.size, 0.0f);
+  }
+  for (const LocalCone& c : cones) {
+    if (c.kind == ConeKind::kSteady) {
+      add_cone<kGradients, ConeKind::kSteady>(c, p, out);
+    } else if (c.kind == ConeKind::kFaded) {
+      add_cone<kGradients, ConeKind::kFaded>(c, p, out);
+    } else {
+      add_cone<kGradients, ConeKind::kPlain>(c, p, out);
+    }
+  }
 }
 
 void SumCones(std::span<const LocalCone> cones, const PointBatch& points, const FieldColumns& out) {
