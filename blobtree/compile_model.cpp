@@ -12,6 +12,8 @@ namespace {
 
 using Op = FieldInstruction::Op;
 
+bool is_primitive(const Node& node) { return node.children.empty(); }
+
 // How deep a stack a node's evaluation needs when its children go by falling need. [Sethi and Ullman 1970]
 std::vector<std::uint32_t> stack_needs(const BlobTree& tree) {
   std::vector<std::uint32_t> needs(tree.nodes.size(), 1);
@@ -19,7 +21,9 @@ std::vector<std::uint32_t> stack_needs(const BlobTree& tree) {
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
     if (tree.nodes[i].children.empty()) continue;
     of_children.clear();
-    for (const NodeId child : tree.nodes[i].children) of_children.push_back(needs[child]);
+    for (const NodeId child : tree.nodes[i].children) {
+      if (!is_primitive(tree.nodes[child])) of_children.push_back(needs[child]);
+    }
     std::sort(of_children.begin(), of_children.end(), std::greater<>());
     for (std::uint32_t k = 0; k < of_children.size(); ++k) needs[i] = std::max(needs[i], of_children[k] + k);
   }
@@ -41,8 +45,6 @@ Box support_in_frame(const Node& node, const Box& support, const Warp::Framed& f
       },
       node.what);
 }
-
-bool is_primitive(const Node& node) { return node.children.empty(); }
 
 class ModelCompiler {
  public:
@@ -254,11 +256,9 @@ class ModelCompiler {
     model.sums.shrink_to_fit();
     model.operators.shrink_to_fit();
     model.warps.shrink_to_fit();
-    std::vector<std::uint32_t> all(model.sums.size());
-    for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
-    FieldProgram program;
-    assemble(model, all, program);
-    model.bounds = bound(model, program, model.support);
+    // No primitive's field exceeds 1, and no operator makes more of its operands than their sum.
+    const auto most = static_cast<double>(model.cones.size());
+    model.bounds = {{has_negatives_ ? -most : 0, most}, std::numeric_limits<double>::infinity()};
   }
 
   const BlobTree& tree_;

@@ -1,5 +1,7 @@
 #include "blobtree/operator_bounds.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -184,7 +186,12 @@ Box support_of(const Node& node, std::span<const Box> supports) {
 
 std::vector<Box> supports_of(const BlobTree& tree) {
   std::vector<Box> supports(tree.nodes.size());
-  for (std::size_t i = 0; i < tree.nodes.size(); ++i) supports[i] = support_of(tree.nodes[i], supports);
+  tbb::parallel_for(std::size_t{0}, tree.nodes.size(), [&](std::size_t i) {
+    if (tree.nodes[i].children.empty()) supports[i] = support_of(tree.nodes[i], supports);
+  });
+  for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+    if (!tree.nodes[i].children.empty()) supports[i] = support_of(tree.nodes[i], supports);
+  }
   return supports;
 }
 

@@ -66,8 +66,9 @@ Color PathTracer::from_sun(const Surface& surface, const Vec3& view, const glm::
 Color PathTracer::from_surroundings(const Surface& surface, const Vec3& view, const PixelSampler& sampler,
                                     int sample) const {
   if (bounces_ == 0) return sky_average_ * surface.scattering->albedo();
-  const std::optional<ScatteredDirection> scattered = surface.scattering->sample(
-      surface.normal, view, sampler.pair(sample, Dimension::kBounce), sampler.pair(sample, Dimension::kLobe).x);
+  const double choice = surface.scattering->has_lobe() ? sampler.pair(sample, Dimension::kLobe).x : 0;
+  const std::optional<ScatteredDirection> scattered =
+      surface.scattering->sample(surface.normal, view, sampler.pair(sample, Dimension::kBounce), choice);
   if (!scattered) return Color(0);
   const Color background = sky_radiance(scene_.sky, scattered->direction);
   const std::optional<Surface> second = find_surface({surface.start, scattered->direction}, dull_bark_);

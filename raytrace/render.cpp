@@ -17,7 +17,7 @@ namespace barkridge {
 
 namespace {
 
-constexpr int kTileSize = 32;
+constexpr int kTileSize = 64;
 // Every pixel gets as many; whether it gets more depends on them and on those of its neighbours.
 constexpr int kFirstSamples = 4;
 // A pixel unlike a neighbour gets at least as many.
@@ -61,10 +61,11 @@ class TileRenderer {
         path_(tracer, scene, options.bounces),
         layout_(options.seed, options.width, options.height, options.samples_per_pixel) {}
 
-  // Renders the pixels of `tile`, and the first samples of those around it, which decide about them too.
+  // Renders the pixels of `tile`, and the first samples of those around it, which decide about further ones.
   void render(const PixelRegion& tile, Image& image) const {
-    const int x0 = std::max(0, tile.x - 1), x1 = std::min(options_.width, tile.x + tile.width + 1);
-    const int y0 = std::max(0, tile.y - 1), y1 = std::min(options_.height, tile.y + tile.height + 1);
+    const int around = options_.samples_per_pixel > kFirstSamples ? 1 : 0;
+    const int x0 = std::max(0, tile.x - around), x1 = std::min(options_.width, tile.x + tile.width + around);
+    const int y0 = std::max(0, tile.y - around), y1 = std::min(options_.height, tile.y + tile.height + around);
     const std::size_t stride = static_cast<std::size_t>(x1 - x0);
     std::vector<PixelSum> first(stride * static_cast<std::size_t>(y1 - y0));
     const auto at = [&](int x, int y) -> PixelSum& {

@@ -24,6 +24,8 @@ class Scattering {
   explicit Scattering(const Material& material);
 
   const Color& albedo() const { return material_.color; }
+  /// Whether there is a lobe; if not, `sample` does not look at its choice.
+  bool has_lobe() const { return material_.specular > 0; }
 
   /// Scattering function times the cosine of `light`; 0 when `view` or `light` are below the surface.
   Color evaluate(const Vec3& normal, const Vec3& view, const Vec3& light) const;
