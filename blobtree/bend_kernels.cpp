@@ -37,13 +37,15 @@ HWY_INLINE void store(const Vec3V& v, const std::array<float*, 3>& columns, std:
 // Into the frame whose axes are the columns of `axes`, and out of it.
 HWY_INLINE Vec3V to_local(const Mat3& axes, const Vec3V& p) {
   const auto along = [&](int k) {
-    return hn::MulAdd(p.x, constant(axes[k].x), hn::MulAdd(p.y, constant(axes[k].y), hn::Mul(p.z, constant(axes[k].z))));
+    return hn::MulAdd(p.x, constant(axes[k].x),
+                      hn::MulAdd(p.y, constant(axes[k].y), hn::Mul(p.z, constant(axes[k].z))));
   };
   return {along(0), along(1), along(2)};
 }
 HWY_INLINE Vec3V to_world(const Mat3& axes, const Vec3V& q) {
   const auto coordinate = [&](int k) {
-    return hn::MulAdd(q.x, constant(axes[0][k]), hn::MulAdd(q.y, constant(axes[1][k]), hn::Mul(q.z, constant(axes[2][k]))));
+    return hn::MulAdd(q.x, constant(axes[0][k]),
+                      hn::MulAdd(q.y, constant(axes[1][k]), hn::Mul(q.z, constant(axes[2][k]))));
   };
   return {coordinate(0), coordinate(1), coordinate(2)};
 }
@@ -83,8 +85,8 @@ void BendPoints(const Warp::BendData& bend, double scale, const PointBatch& from
     const Vec angle = hn::Atan(Tag(), hn::Div(p.a, hn::Max(p.b, constant(1e-30))));
     const Vec along = hn::MulSub(p.cosine, p.a, hn::Mul(p.sine, p.b));
     const Vec out = hn::MulAdd(p.sine, p.a, hn::Mul(p.cosine, p.b));
-    const Vec axial = hn::IfThenElse(p.is_past, hn::Add(hn::CopySign(half_arc, p.a), along),
-                                     hn::Mul(constant(radius), angle));
+    const Vec axial =
+        hn::IfThenElse(p.is_past, hn::Add(hn::CopySign(half_arc, p.a), along), hn::Mul(constant(radius), angle));
     Vec3V r;
     r.x = hn::Add(axial, constant(radius * bend.half_angle - target.x));
     r.y = hn::Sub(hn::IfThenElse(p.is_past, out, p.rho), constant(radius + target.y));
@@ -99,8 +101,7 @@ void BendGradients(const Warp::BendData& bend, double scale, const PointBatch& p
   for (std::size_t i = 0; i < points.size; i += hn::Lanes(Tag())) {
     const Vec3V q = to_local(bend.frame.axes, load(points.at, i));
     const Polar p = polar(bend, hn::Add(q.x, constant(start.x)), hn::Add(q.y, constant(start.y)));
-    const Vec stretch =
-        hn::IfThenElse(p.is_past, constant(1), hn::Div(radius, hn::Max(p.rho, constant(1e-30))));
+    const Vec stretch = hn::IfThenElse(p.is_past, constant(1), hn::Div(radius, hn::Max(p.rho, constant(1e-30))));
     const Vec3V g = to_local(bend.frame.axes, load(field.gradient, i));
     const Vec tangential = hn::Mul(stretch, g.x);
     // Transposed Jacobian times gradient.

@@ -35,8 +35,8 @@ class BoxHierarchy {
   };
   static unsigned overlapping(const Group& group, const std::array<float, 3>& lo, const std::array<float, 3>& hi);
 
-  std::vector<std::uint32_t> numbers_;  // of the boxes along the curve
-  std::vector<std::uint32_t> places_;   // of the boxes on it
+  std::vector<std::uint32_t> numbers_;      // of the boxes along the curve
+  std::vector<std::uint32_t> places_;       // of the boxes on it
   std::vector<std::vector<Group>> levels_;  // the boxes themselves first, one group last
 };
 

@@ -198,8 +198,8 @@ class ModelCompiler {
 
   void visit_warp(Warp warp, NodeId id, std::uint32_t parent, std::uint8_t rank) {
     model_->warps.push_back(std::move(warp));
-    pending_.push_back({tree_.nodes[id].children[0],
-                        add_operator(Op::kEnterWarp, 1, model_->warps.size() - 1, parent, rank), 0});
+    pending_.push_back(
+        {tree_.nodes[id].children[0], add_operator(Op::kEnterWarp, 1, model_->warps.size() - 1, parent, rank), 0});
   }
   void visit_operator(const Bend& bend, NodeId id, std::uint32_t parent, std::uint8_t rank) {
     visit_warp(Warp(bend, supports_[tree_.nodes[id].children[0]]), id, parent, rank);
@@ -224,7 +224,9 @@ class ModelCompiler {
   }
 
   void write_primitive(const Cone& cone, NodeId) { write_cone(record_of(cone, model_->units.scale), ConeKind::kPlain); }
-  void write_primitive(const FadedCone& cone, NodeId) { write_cone(record_of(cone, model_->units.scale), ConeKind::kFaded); }
+  void write_primitive(const FadedCone& cone, NodeId) {
+    write_cone(record_of(cone, model_->units.scale), ConeKind::kFaded);
+  }
   template <typename Shape>
   void write_primitive(const Shape& shape, NodeId id) {
     if constexpr (std::is_constructible_v<std::variant<Disc, Ring, Polygon>, Shape>) {

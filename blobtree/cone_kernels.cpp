@@ -209,8 +209,8 @@ HWY_INLINE void add_faded(const LocalCone& c, Vec x, Vec y, Vec z, Accumulator& 
     apply_ends(ends, inverse, slope);
     const Vec down = hn::Neg(hn::Mul(t, hn::MulAdd(constant(4.0f / 9), t, hn::Add(near, near))));
     const Vec weight_slope = hn::IfThenElseZero(
-        hn::Gt(weight, zero), hn::Sub(hn::Mul(fade_slope(rise), constant(c.rise_scale)),
-                                      hn::Mul(fade_slope(fall), constant(c.fall_scale))));
+        hn::Gt(weight, zero),
+        hn::Sub(hn::Mul(fade_slope(rise), constant(c.rise_scale)), hn::Mul(fade_slope(fall), constant(c.fall_scale))));
     const Vec weighted = hn::Mul(weight, down);
     const Vec along = hn::MulAdd(g, weight_slope, hn::Mul(weighted, slope.along));
     const Vec across = hn::Mul(weighted, slope.across);

@@ -56,7 +56,8 @@ Limits limits_of(const ConeRecord& c, ConeKind kind) {
 Interval axial_support(const ConeRecord& c) {
   const double r0 = c.base_radius, r1 = c.tip_radius();
   const bool is_steep = 2 * std::abs(c.taper) >= 1;
-  const double base_cap = 2 * (is_steep ? 2 * std::max(r0, r1) : r0), tip_cap = 2 * (is_steep ? 2 * std::max(r0, r1) : r1);
+  const double base_cap = 2 * (is_steep ? 2 * std::max(r0, r1) : r0),
+               tip_cap = 2 * (is_steep ? 2 * std::max(r0, r1) : r1);
   return {c.has_free_base() ? -base_cap : c.rise_start,
           c.has_free_tip() ? c.length + tip_cap : c.fall_start + 1 / c.fall_scale};
 }
@@ -121,8 +122,7 @@ DistanceSlope distance_slope(const ConeRecord& c, ConeKind kind, const Limits& l
   if (!foot_limited && !radius_limited) return {slope, false, !capped};
   const double k = s * s * rho2 / (rc * rc);
   if (foot_limited) {
-    const double by_rho =
-        std::max((1 + 2 * k) / (2 * std::sqrt(1 + k)), 2 * s * s * reach.rho_hi / limits.radius.lo);
+    const double by_rho = std::max((1 + 2 * k) / (2 * std::sqrt(1 + k)), 2 * s * s * reach.rho_hi / limits.radius.lo);
     slope = std::max(slope, std::hypot(std::abs(s), by_rho) / lowest);
   }
   if (radius_limited) {
@@ -215,8 +215,7 @@ ConeBounds weighted(const ConeRecord& c, const Setting& setting, const FieldBoun
 ConeBounds bounds_of(const ConeRecord& c, ConeKind kind, const ModelUnits& units, const Box& box) {
   const Vec3 axis(c.axis), from_base = units.scale * (box.center() - c.base), half = units.scale * box.half_extent();
   const double y = glm::dot(from_base, axis), y_reach = glm::dot(glm::abs(axis), half);
-  const double rounding =
-      kRounding * (std::abs(y) + y_reach + c.length + c.base_radius) + place_rounding(units);
+  const double rounding = kRounding * (std::abs(y) + y_reach + c.length + c.base_radius) + place_rounding(units);
   // Only places within the support count; the search for the least distance starts from one of them.
   const Interval support = axial_support(c);
   const Interval along{std::max(y - y_reach, support.lo) - rounding, std::min(y + y_reach, support.hi) + rounding};
@@ -245,9 +244,9 @@ namespace {
 
 // A line in a cone's coordinates, its parameter tau from the middle of the piece on.
 struct AxialLine {
-  double y, y_slope;   // y(tau)
-  double n0, n1, n2;   // rho^2(tau) = n0 + 2 n1 tau + n2 tau^2
-  double nearest;      // tau at which the line passes the base
+  double y, y_slope;  // y(tau)
+  double n0, n1, n2;  // rho^2(tau) = n0 + 2 n1 tau + n2 tau^2
+  double nearest;     // tau at which the line passes the base
 
   double height(double tau) const { return y + y_slope * tau; }
   double rho2(double tau) const { return std::max(0.0, n0 + tau * (2 * n1 + tau * n2)); }

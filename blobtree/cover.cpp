@@ -14,7 +14,8 @@ namespace {
 using Op = FieldInstruction::Op;
 
 // No operator makes more of its operands than their sum. So where the field reaches the iso-value and k primitives
-// matter, one of them has at least the k-th part of it: the point is within that one's level of this normalised distance.
+// matter, one of them has at least the k-th part of it: the point is within that one's level of this normalised
+// distance.
 constexpr std::size_t kMostCounted = 16;
 
 std::array<double, kMostCounted + 1> level_distances() {
@@ -53,22 +54,25 @@ struct Tube {
   // In the world, or in a frame.
   Box box(double u, double from, double to, const Warp::Framed* frame) const {
     const double radius = reach(u, from, to);
-    const Vec3 start = frame ? frame->to_local(base) : base, along_axis = frame ? frame->to_local(base + axis) - start : axis;
+    const Vec3 start = frame ? frame->to_local(base) : base,
+               along_axis = frame ? frame->to_local(base + axis) - start : axis;
     return unite(around_disc(start + from * along_axis, along_axis, radius),
                  around_disc(start + to * along_axis, along_axis, radius));
   }
 };
 
 Tube tube_of(const ConeRecord& c, ConeKind kind, double scale) {
-  Tube tube{c.base,    Vec3(c.axis),      c.base_radius / scale, c.taper, c.length / scale, {}, c.has_free_base(),
-            c.has_free_tip(), false};
+  Tube tube{c.base, Vec3(c.axis),      c.base_radius / scale, c.taper, c.length / scale,
+            {},     c.has_free_base(), c.has_free_tip(),      false};
   const double r0 = tube.base_radius, r1 = c.tip_radius() / scale;
   tube.along = {tube.free_base ? -2 * r0 : c.rise_start / scale,
                 tube.free_tip ? tube.length + 2 * r1 : (c.fall_start + 1 / c.fall_scale) / scale};
   const double steep = 4 * c.taper * c.taper;
-  const double at_lo = r0 + c.taper * std::min(0.0, tube.along.lo), at_hi = r0 + c.taper * std::max(tube.length, tube.along.hi);
+  const double at_lo = r0 + c.taper * std::min(0.0, tube.along.lo),
+               at_hi = r0 + c.taper * std::max(tube.length, tube.along.hi);
   const double lowest = 0.5 * std::min(r0, r1), highest = 2 * std::max(r0, r1) * (1 - steep);
-  tube.is_limited = steep > 0.5 || (kind == ConeKind::kFaded && (std::min(at_lo, at_hi) < lowest || std::max(at_lo, at_hi) > highest));
+  tube.is_limited = steep > 0.5 ||
+                    (kind == ConeKind::kFaded && (std::min(at_lo, at_hi) < lowest || std::max(at_lo, at_hi) > highest));
   return tube;
 }
 

@@ -36,8 +36,8 @@ inline double steepest_falloff(Interval u) {
 }
 
 /// Bounds of the second derivative of the falloff along any line, times the square of the radius of influence, for u of
-/// at least `lo`, where u is the distance from a point over that radius: along the line of the gradient it is g'', across
-/// it g' / u, which is the lower one and rises with u.
+/// at least `lo`, where u is the distance from a point over that radius: along the line of the gradient it is g'',
+/// across it g' / u, which is the lower one and rises with u.
 inline Interval falloff_second(double lo) {
   const double v = std::min(1.0, lo * lo);
   return {-44.0 / 9 + v * (68.0 / 9 - v * (24.0 / 9)), 3.79};

@@ -24,9 +24,9 @@ struct FieldBounds {
   Interval value{0, 0};
   /// At least the length of every gradient, and a Lipschitz constant of the field on the region if that is convex.
   double slope = 0;
-  /// Encloses the second derivative along every line, where it is known; a crease that points up, like contact's, counts
-  /// as +infinity and one that points down as -infinity. So between two points at a distance h the field is at most
-  /// the larger of its values there minus second.lo h^2 / 8.
+  /// Encloses the second derivative along every line, where it is known; a crease that points up, like contact's,
+  /// counts as +infinity and one that points down as -infinity. So between two points at a distance h the field is at
+  /// most the larger of its values there minus second.lo h^2 / 8.
   Interval second{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 };
 

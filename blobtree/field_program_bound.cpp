@@ -203,7 +203,8 @@ class Bounder {
     }
     // (F o w)'' is F'' along w' plus F' along w''.
     const double curvature = warp.jump > 0 ? std::numeric_limits<double>::infinity() : warp.curvature;
-    const double mixed = top.bounds.slope > 0 ? top.bounds.slope * curvature : 0, stretch2 = warp.stretch * warp.stretch;
+    const double mixed = top.bounds.slope > 0 ? top.bounds.slope * curvature : 0,
+                 stretch2 = warp.stretch * warp.stretch;
     top.bounds.second = {std::min(0.0, stretch2 * top.bounds.second.lo) - mixed,
                          std::max(0.0, stretch2 * top.bounds.second.hi) + mixed};
     top.bounds.slope *= warp.stretch;

@@ -131,8 +131,8 @@ class Machine {
     std::vector<LocalCone>& cones = scratch_.cones;
     cones.clear();
     for (const ConeReference& reference : references) {
-      cones.push_back(local_cone(model_.cones[reference.cone], static_cast<ConeKind>(reference.kind), origin,
-                                 model_.units.scale));
+      cones.push_back(
+          local_cone(model_.cones[reference.cone], static_cast<ConeKind>(reference.kind), origin, model_.units.scale));
     }
   }
 

@@ -99,11 +99,9 @@ class Expansion {
     return where_it_reaches(x, near, far);
   }
   HWY_INLINE Vec slope(Vec x) const {
-    const Vec near =
-        hn::MulAdd(x, hn::MulAdd(x, constant(3 * cubic_), constant(2 * square_)), constant(1));
+    const Vec near = hn::MulAdd(x, hn::MulAdd(x, constant(3 * cubic_), constant(2 * square_)), constant(1));
     const Vec rest = hn::Sub(x, constant(width_));
-    const Vec far =
-        hn::Mul(hn::Mul(constant(far_), rest), hn::MulSub(constant(12), x, constant(6 * width_)));
+    const Vec far = hn::Mul(hn::Mul(constant(far_), rest), hn::MulSub(constant(12), x, constant(6 * width_)));
     return where_it_reaches(x, near, far);
   }
 
@@ -151,7 +149,8 @@ void contact(const ContactShape& shape, Fields fields, std::size_t size) {
         const Vec as_other = hn::IfThenElse(hn::Ge(f, iso), constant(-1), hn::Neg(expansion.slope(hn::Sub(iso, f))));
         const Vec weight = hn::IfThenElse(is_highest, one, as_other);
         const Vec used = hn::IfThenElse(hn::And(flat, hn::Ge(f, iso)), zero, weight);
-        for (std::size_t axis = 0; axis < 3; ++axis) g[axis] = hn::MulAdd(used, load(fields[k].gradient[axis], i), g[axis]);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          g[axis] = hn::MulAdd(used, load(fields[k].gradient[axis], i), g[axis]);
       }
       for (std::size_t axis = 0; axis < 3; ++axis) store(g[axis], fields[0].gradient[axis], i);
     }
@@ -163,7 +162,8 @@ void contact(const ContactShape& shape, Fields fields, std::size_t size) {
 void ricci(double exponent, Fields fields, std::size_t size) {
   for (std::size_t i = 0; i < size; ++i) {
     double powers = 0;
-    for (const FieldColumns& field : fields) powers += std::pow(std::max(0.0, static_cast<double>(field.f[i])), exponent);
+    for (const FieldColumns& field : fields)
+      powers += std::pow(std::max(0.0, static_cast<double>(field.f[i])), exponent);
     const double result = powers > 0 ? std::pow(powers, 1 / exponent) : 0;
     double g[3] = {0, 0, 0};
     for (const FieldColumns& field : fields) {

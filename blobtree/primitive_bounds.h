@@ -25,8 +25,8 @@ FieldBounds bounds_where_supported(const Box& support, const Box& box, OfPart of
 }
 
 /// Bounds of the falloff for normalised distances in a range of which `lo` is less than 1, and of which the slope is at
-/// most the given one; the second form is for those over a box of the given half diagonal, for a normalised distance that is `u` at its centre,
-/// has at most the given slope throughout, and is off by rounding up to a share of itself.
+/// most the given one; the second form is for those over a box of the given half diagonal, for a normalised distance
+/// that is `u` at its centre, has at most the given slope throughout, and is off by rounding up to a share of itself.
 FieldBounds falloff_bounds_between(const Interval& u, double slope);
 FieldBounds falloff_bounds(double u, double slope, double half_diagonal, double rounding);
 

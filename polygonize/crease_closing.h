@@ -26,9 +26,9 @@ inline constexpr int kHaloPoints = kBlockPoints + 2 * kCreaseHalo;
 /// agree.
 std::vector<glm::ivec3> crease_bottoms(const std::vector<double>& values);
 
-/// Whether `crease_bottoms` can find any, from the signs of a block's own samples and the few of its halo that they make necessary:
-/// whether some outside point has inside neighbours on both sides along an axis. `first` is the block's first point;
-/// `points` and `halo_values` are memory to use.
+/// Whether `crease_bottoms` can find any, from the signs of a block's own samples and the few of its halo that they
+/// make necessary: whether some outside point has inside neighbours on both sides along an axis. `first` is the block's
+/// first point; `points` and `halo_values` are memory to use.
 bool may_have_crease_bottoms(const Lattice& lattice, const Field& with_halo, const glm::ivec3& first,
                              const InsideRows& inside, std::vector<Vec3>& points, std::vector<double>& halo_values);
 

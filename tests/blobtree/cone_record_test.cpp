@@ -15,7 +15,11 @@ FadedCone random_cone(RandomSource& random) {
   const Vec3 base = random.in_box({Vec3(-1), Vec3(1)});
   // Mostly gentle tapers, as in trees; some so steep that the limits of the radius are at work.
   const double r0 = radius(), r1 = random.chance(0.7) ? r0 * random.uniform(0.8, 1.1) : radius();
-  return {base, base + random.uniform(0.1, 2) * random.direction(), r0, r1, random.chance(0.6) ? radius() : 0,
+  return {base,
+          base + random.uniform(0.1, 2) * random.direction(),
+          r0,
+          r1,
+          random.chance(0.6) ? radius() : 0,
           random.chance(0.6) ? radius() : 0};
 }
 
@@ -44,7 +48,8 @@ TEST_CASE("bounds along a piece of a ray hold at every point of it, and nothing 
       const FieldSample at = is_faded ? sample(faded, ray.at(t)) : sample(plain, ray.at(t));
       lowest = std::min(lowest, at.value);
       highest = std::max(highest, at.value);
-      CAPTURE(i, k, is_faded, at.value, field.value.lo, field.value.hi, field.slope, t, bounds.reach.lo, bounds.reach.hi);
+      CAPTURE(i, k, is_faded, at.value, field.value.lo, field.value.hi, field.slope, t, bounds.reach.lo,
+              bounds.reach.hi);
       REQUIRE(at.value <= field.value.hi + 1e-5);
       REQUIRE(at.value >= field.value.lo - 1e-5);
       REQUIRE(glm::length(at.gradient) <= field.slope * (1 + 1e-4) + 1e-4);

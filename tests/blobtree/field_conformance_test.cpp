@@ -161,8 +161,7 @@ TEST_CASE("between two points a field is no higher than its second derivative's 
         for (int i = 0; i < 6; ++i) {
           const Vec3 p = random.in_box(box), q = random.in_box(box);
           const double h = glm::distance(p, q), t = random.uniform(0, 1);
-          const double highest =
-              std::max(at(*field, p).value, at(*field, q).value) - lowest_second * h * h / 8;
+          const double highest = std::max(at(*field, p).value, at(*field, q).value) - lowest_second * h * h / 8;
           CAPTURE(name, seed, b, lowest_second, h);
           REQUIRE(at(*field, p + t * (q - p)).value <= highest + 2e-6);
         }

@@ -90,8 +90,8 @@ TEST_CASE("bounds of a faded cone hold for extreme tapers") {
     const Vec3 a = random.in_box({Vec3(-3), Vec3(3)});
     const Vec3 extent = std::pow(10.0, random.uniform(-3, 0.3)) * Vec3(random.unit(), random.unit(), random.unit());
     const Box box{a - extent, a + extent};
-    const FieldBounds bounds =
-        bounds_where_supported(support, box, [&](const Box& part) { return bounds_of(record, ConeKind::kFaded, {}, part).field; });
+    const FieldBounds bounds = bounds_where_supported(
+        support, box, [&](const Box& part) { return bounds_of(record, ConeKind::kFaded, {}, part).field; });
     for (int k = 0; k < 20; ++k) {
       const FieldSample s = sample(cone, random.in_box(box));
       CAPTURE(i, r0, r1, record.length, cone.parent_radius, cone.child_radius);

@@ -105,6 +105,6 @@ void shoot_at_trees(int trees, int rays_a_tree, int internodes) {
 
 TEST_CASE("random rays meet random trees where a dense march says") { shoot_at_trees(20, 500, 14); }
 
-TEST_CASE("a hundred thousand random rays meet random trees where a dense march says", "[long]") {
-  shoot_at_trees(50, 2000, 25);
+TEST_CASE("a million random rays meet random trees where a dense march says", "[long]") {
+  shoot_at_trees(50, 20000, 25);
 }
