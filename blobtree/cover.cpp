@@ -6,6 +6,7 @@
 
 #include "blobtree/falloff.h"
 #include "blobtree/field_model.h"
+#include "blobtree/primitive_bounds.h"
 
 namespace barkridge {
 
@@ -31,11 +32,6 @@ std::array<double, kMostCounted + 1> level_distances() {
   return distances;
 }
 
-Box around_disc(const Vec3& center, const Vec3& axis, double radius) {
-  const Vec3 extent = radius * glm::sqrt(glm::max(Vec3(0), Vec3(1) - axis * axis));
-  return {center - extent, center + extent};
-}
-
 // The part of a cone's support in which it is not zero, in scene units.
 struct Tube {
   Vec3 base, axis;
@@ -56,8 +52,8 @@ struct Tube {
     const double radius = reach(u, from, to);
     const Vec3 start = frame ? frame->to_local(base) : base,
                along_axis = frame ? frame->to_local(base + axis) - start : axis;
-    return unite(around_disc(start + from * along_axis, along_axis, radius),
-                 around_disc(start + to * along_axis, along_axis, radius));
+    return unite(disc_box(start + from * along_axis, along_axis, radius),
+                 disc_box(start + to * along_axis, along_axis, radius));
   }
 };
 

@@ -31,14 +31,6 @@ struct OpenWarp {
 
 bool is_zero(const FieldBounds& bounds) { return bounds.value.lo == 0 && bounds.value.hi == 0; }
 
-void add(FieldBounds& sum, const FieldBounds& summand) {
-  sum.value.lo += summand.value.lo;
-  sum.value.hi += summand.value.hi;
-  sum.slope += summand.slope;
-  sum.second.lo += summand.second.lo;
-  sum.second.hi += summand.second.hi;
-}
-
 // Memory for one thread's walks, kept between calls.
 struct Scratch {
   std::vector<Operand> stack;

@@ -47,13 +47,7 @@ double lowest_second(std::span<const FieldBounds> children) {
 
 FieldBounds bounds_of(const Sum&, std::span<const FieldBounds> children) {
   FieldBounds sum{{0, 0}, 0, {0, 0}};
-  for (const FieldBounds& child : children) {
-    sum.value.lo += child.value.lo;
-    sum.value.hi += child.value.hi;
-    sum.slope += child.slope;
-    sum.second.lo += child.second.lo;
-    sum.second.hi += child.second.hi;
-  }
+  for (const FieldBounds& child : children) add(sum, child);
   return sum;
 }
 

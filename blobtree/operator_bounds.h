@@ -9,6 +9,15 @@
 
 namespace barkridge {
 
+/// Adds the bounds of one summand to those of a sum.
+inline void add(FieldBounds& sum, const FieldBounds& summand) {
+  sum.value.lo += summand.value.lo;
+  sum.value.hi += summand.value.hi;
+  sum.slope += summand.slope;
+  sum.second.lo += summand.second.lo;
+  sum.second.hi += summand.second.hi;
+}
+
 FieldBounds bounds_of(const Sum&, std::span<const FieldBounds> children);
 FieldBounds bounds_of(const Ricci& ricci, std::span<const FieldBounds> children);
 FieldBounds bounds_of(const Union&, std::span<const FieldBounds> children);

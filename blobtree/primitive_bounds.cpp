@@ -14,12 +14,6 @@ constexpr double kRounding = 1e-12;
 
 Box ball(const Vec3& center, double radius) { return {center - Vec3(radius), center + Vec3(radius)}; }
 
-// The box of a disc of `radius` across `axis`.
-Box disc_box(const Vec3& center, const Vec3& axis, double radius) {
-  const Vec3 extent = radius * glm::sqrt(glm::max(Vec3(0), Vec3(1) - axis * axis));
-  return {center - extent, center + extent};
-}
-
 template <typename Primitive>
 FieldBounds bounds_of_constant_radius(const Primitive& primitive, const Box& box) {
   const Sphere sphere = nearest_sphere(primitive, box.center());
@@ -49,6 +43,11 @@ Interval axial_support(const FadedCone& cone, const FadedConeFrame& frame) {
 }
 
 }  // namespace
+
+Box disc_box(const Vec3& center, const Vec3& axis, double radius) {
+  const Vec3 extent = radius * glm::sqrt(glm::max(Vec3(0), Vec3(1) - axis * axis));
+  return {center - extent, center + extent};
+}
 
 FieldBounds falloff_bounds_between(const Interval& u, double slope) {
   const double hi = std::min(1.0, u.hi);

@@ -7,6 +7,9 @@
 
 namespace barkridge {
 
+/// The box around a disc across a unit vector.
+Box disc_box(const Vec3& center, const Vec3& axis, double radius);
+
 Box support_of(const Cone& cone);
 Box support_of(const FadedCone& cone);
 Box support_of(const Disc& disc);
