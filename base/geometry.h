@@ -57,6 +57,23 @@ struct Ray {
   Vec3 at(double t) const { return origin + t * direction; }
 };
 
+/// The part of `range` in which the ray is inside the closed box; empty when there is none. Boxes that share a face get
+/// intervals that share an end, so no gap opens between them.
+inline Interval clip(const Ray& ray, const Box& box, Interval range) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double origin = ray.origin[axis], direction = ray.direction[axis];
+    if (direction == 0) {
+      if (origin < box.lo[axis] || origin > box.hi[axis]) return {};
+      continue;
+    }
+    const double a = (box.lo[axis] - origin) / direction;
+    const double b = (box.hi[axis] - origin) / direction;
+    range.lo = std::max(range.lo, std::min(a, b));
+    range.hi = std::min(range.hi, std::max(a, b));
+  }
+  return range;
+}
+
 /// Two unit vectors that complete the unit vector `n` to a right-handed frame (t, b, n), continuous but for n.z = -1.
 /// [Duff et al. 2017, "Building an Orthonormal Basis, Revisited"]
 inline void complete_frame(const Vec3& n, Vec3& t, Vec3& b) {

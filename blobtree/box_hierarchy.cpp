@@ -113,6 +113,11 @@ bool BoxHierarchy::find(const Box& region, std::size_t most, std::vector<std::ui
   }
 }
 
+std::span<const std::uint32_t> BoxHierarchy::group(std::size_t number) const {
+  const std::size_t start = number * kWidth;
+  return std::span(numbers_).subspan(start, std::min(kWidth, numbers_.size() - start));
+}
+
 Box BoxHierarchy::box(std::size_t number) const {
   const Group& group = levels_[0][places_[number] / kWidth];
   const std::size_t k = places_[number] % kWidth;

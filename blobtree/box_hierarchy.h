@@ -22,6 +22,10 @@ class BoxHierarchy {
   /// all.
   bool find(const Box& region, std::size_t most, std::vector<std::uint32_t>& found) const;
 
+  /// The numbers of up to eight neighbours along the curve; there are as many groups of them as `group_count` says.
+  std::span<const std::uint32_t> group(std::size_t number) const;
+  std::size_t group_count() const { return levels_.empty() ? 0 : levels_[0].size(); }
+
   /// A box, rounded outward.
   Box box(std::size_t number) const;
   std::size_t size() const { return numbers_.size(); }

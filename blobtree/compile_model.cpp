@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "blobtree/contact.h"
 #include "blobtree/field_model.h"
 #include "blobtree/morton.h"
 #include "blobtree/operator_bounds.h"
@@ -178,6 +179,7 @@ class ModelCompiler {
     // A tree from a skeleton has one shape for all its contacts.
     std::vector<ContactShape>& shapes = model_->contacts;
     if (shapes.empty() || !(shapes.back() == contact.shape)) shapes.push_back(contact.shape);
+    model_->is_below_sum = model_->is_below_sum && is_below_sum(contact.shape);
     visit_commutative(Op::kContact, id, parent, rank, shapes.size() - 1);
   }
   void visit_operator(const Negative&, NodeId id, std::uint32_t parent, std::uint8_t rank) {
@@ -225,7 +227,8 @@ class ModelCompiler {
 
   void write_primitive(const Cone& cone, NodeId) { write_cone(record_of(cone, model_->units.scale), ConeKind::kPlain); }
   void write_primitive(const FadedCone& cone, NodeId) {
-    write_cone(record_of(cone, model_->units.scale), ConeKind::kFaded);
+    const ConeRecord record = record_of(cone, model_->units.scale);
+    write_cone(record, kind_of_faded(record));
   }
   template <typename Shape>
   void write_primitive(const Shape& shape, NodeId id) {
@@ -258,7 +261,10 @@ class ModelCompiler {
     model.sums.shrink_to_fit();
     model.operators.shrink_to_fit();
     model.warps.shrink_to_fit();
-    // No primitive's field exceeds 1, and no operator makes more of its operands than their sum.
+    // No primitive's field exceeds 1, and no contact adds more than that for each of its children.
+    model.takes_away = std::any_of(model.operators.begin(), model.operators.end(), [](const FieldOperator& node) {
+      return node.op == Op::kNegate || node.op == Op::kDifference;
+    });
     const auto most = static_cast<double>(model.cones.size());
     model.bounds = {{has_negatives_ ? -most : 0, most}, std::numeric_limits<double>::infinity()};
   }

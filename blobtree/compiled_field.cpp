@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "blobtree/field_model.h"
-#include "blobtree/ray_search.h"
+#include "blobtree/model_cells.h"
 #include "blobtree/tree.h"
 
 namespace barkridge {
@@ -23,13 +23,6 @@ bool find_primitives(const FieldModel& model, const Box& region, std::vector<std
 std::vector<std::uint32_t>& primitive_scratch() {
   thread_local std::vector<std::uint32_t> found;
   return found;
-}
-
-std::vector<Box> cover_within(const FieldModel& model, const Box& region) {
-  std::vector<Box> boxes = cover_of(model);
-  for (Box& box : boxes) box = intersect(box, region);
-  std::erase_if(boxes, [](const Box& box) { return box.empty(); });
-  return boxes;
 }
 
 // A part of a model, in a region where not too many primitives matter.
@@ -54,14 +47,6 @@ class PartField final : public Field {
     evaluate(*model_, program_, points, values, gradients);
   }
 
-  std::optional<double> first_inside(const Ray& ray, const Interval& range, double tolerance) const override {
-    return search(ray, range, tolerance, false);
-  }
-
-  bool any_inside(const Ray& ray, const Interval& range, double tolerance) const override {
-    return search(ray, range, tolerance, true).has_value();
-  }
-
   FieldBounds bounds(const Box& box) const override {
     return box.lo == box_.lo && box.hi == box_.hi ? bounds_ : bound(*model_, program_, box);
   }
@@ -70,27 +55,11 @@ class PartField final : public Field {
     return std::make_shared<PartField>(model_, program_, support_, box);
   }
 
-  std::vector<Box> cover() const override { return cover_within(*model_, support_); }
+  std::unique_ptr<const SurfaceCells> cells() const override { return cells_of(model_, support_); }
 
   std::size_t primitive_count() const override { return primitive_count_of(program_); }
 
  private:
-  // Restricted once more, to the ray: most primitives of a region are not near it.
-  std::optional<double> search(const Ray& ray, const Interval& range, double tolerance, bool any) const {
-    thread_local FieldProgram rest;
-    const RayBounds bounds = bound_along(*model_, program_, ray, range, rest);
-    const Interval reach{std::max(range.lo, bounds.reach.lo), std::min(range.hi, bounds.reach.hi)};
-    if (bounds.field.value.hi < kIsoValue || reach.empty()) return std::nullopt;
-    // Under warps only short pieces have good bounds.
-    constexpr double kMostVariation = 24;
-    const double length = reach.hi - reach.lo, middle = 0.5 * (reach.lo + reach.hi);
-    if (std::isinf(bounds.field.second.lo) && bounds.field.slope * length > kMostVariation && length > 2 * tolerance) {
-      const std::optional<double> first = search(ray, {reach.lo, middle}, tolerance, any);
-      return first ? first : search(ray, {middle, reach.hi}, tolerance, any);
-    }
-    return search_along(*model_, rest, bounds.field, ray, reach, tolerance, any);
-  }
-
   ModelPtr model_;
   FieldProgram program_;
   Box support_;
@@ -133,7 +102,7 @@ class WholeField final : public Field {
     return std::make_shared<PartField>(model_, program, support_, box);
   }
 
-  std::vector<Box> cover() const override { return cover_within(*model_, support_); }
+  std::unique_ptr<const SurfaceCells> cells() const override { return cells_of(model_, support_); }
 
   std::size_t primitive_count() const override { return model_->cones.size(); }
 

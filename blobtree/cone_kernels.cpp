@@ -59,7 +59,8 @@ struct RatioSlope {
   Vec along, across;
 };
 
-HWY_INLINE RatioSlope ratio_slope(const LocalCone& c, Vec foot, Vec v, Vec inverse) {
+template <typename AnyCone>
+HWY_INLINE RatioSlope ratio_slope(const AnyCone& c, Vec foot, Vec v, Vec inverse) {
   const Vec foot_share = hn::Mul(constant(8), hn::Mul(foot, inverse));
   return {hn::Mul(hn::Mul(foot_share, constant(-c.taper)), v), hn::Mul(foot_share, hn::Mul(foot, inverse))};
 }
@@ -78,7 +79,8 @@ HWY_INLINE void apply_end(Mask at_end, Vec dy, float radius, const AxialPoint& q
 }
 
 // The nearest sphere lies at y + taper rho^2 / foot, kept between the free ends.
-HWY_INLINE Ends apply_ends(const LocalCone& c, const AxialPoint& q, Vec foot, bool base, bool tip, Ratio& ratio) {
+template <typename AnyCone>
+HWY_INLINE Ends apply_ends(const AnyCone& c, const AxialPoint& q, Vec foot, bool base, bool tip, Ratio& ratio) {
   Ends ends{hn::MaskFromVec(hn::Zero(Tag())), hn::Zero(Tag())};
   const Vec sweep = hn::Mul(constant(c.taper), q.rho2);
   if (base) {
@@ -110,9 +112,8 @@ HWY_INLINE Vec falloff_of(Vec v, Vec& t, Vec& near) {
 }
 
 // Adds falloff and, where wanted, gradient of a cone without weight, with or without caps.
-template <bool kGradients, bool kCapped>
-HWY_INLINE void add_plain(const LocalCone& c, Vec x, Vec y, Vec z, Accumulator& sum) {
-  const AxialPoint q = axial_point(c, x, y, z);
+template <bool kGradients, bool kCapped, typename AnyCone>
+HWY_INLINE void add_plain(const AnyCone& c, const AxialPoint& q, Accumulator& sum) {
   const Vec foot = hn::MulAdd(constant(c.taper), q.y, constant(c.base_radius));
   Ratio ratio{q.rho2, hn::MulAdd(foot, foot, hn::Mul(constant(c.taper * c.taper), q.rho2))};
   Ends ends;
@@ -132,10 +133,12 @@ HWY_INLINE void add_plain(const LocalCone& c, Vec x, Vec y, Vec z, Accumulator& 
   }
 }
 
-HWY_INLINE float lowest_radius(const LocalCone& c) {
+template <typename AnyCone>
+HWY_INLINE float lowest_radius(const AnyCone& c) {
   return 0.5f * (c.base_radius < c.tip_radius ? c.base_radius : c.tip_radius);
 }
-HWY_INLINE float highest_radius(const LocalCone& c) {
+template <typename AnyCone>
+HWY_INLINE float highest_radius(const AnyCone& c) {
   return 2.0f * (c.base_radius < c.tip_radius ? c.tip_radius : c.base_radius);
 }
 
@@ -147,7 +150,8 @@ struct Limited {
   Mask foot_is_free, kept_is_free, kept_is_high;
 };
 
-HWY_INLINE Limited limited(const LocalCone& c, const AxialPoint& q, Vec foot, Vec e, Ratio& ratio) {
+template <typename AnyCone>
+HWY_INLINE Limited limited(const AnyCone& c, const AxialPoint& q, Vec foot, Vec e, Ratio& ratio) {
   const float lowest = lowest_radius(c), highest = highest_radius(c);
   Limited l;
   l.rc = hn::Max(foot, constant(lowest));
@@ -185,19 +189,21 @@ HWY_INLINE void limit_slope(const LocalCone& c, const Limited& l, const AxialPoi
   slope.across = hn::IfThenElse(l.any, across, slope.across);
 }
 
-template <bool kGradients>
-HWY_INLINE void add_faded(const LocalCone& c, Vec x, Vec y, Vec z, Accumulator& sum) {
+template <bool kGradients, bool kLimited, typename AnyCone>
+HWY_INLINE void add_faded(const AnyCone& c, const AxialPoint& q, Accumulator& sum) {
   const Vec zero = hn::Zero(Tag()), one = constant(1);
-  const AxialPoint q = axial_point(c, x, y, z);
   const Vec rise = clamped(hn::Mul(hn::Sub(q.y, constant(c.rise_start)), constant(c.rise_scale)), zero, one);
   const Vec fall = clamped(hn::Mul(hn::Sub(q.y, constant(c.fall_start)), constant(c.fall_scale)), zero, one);
   const Vec weight = hn::Max(hn::Sub(fade(rise), fade(fall)), zero);
 
-  const Vec foot = hn::MulAdd(constant(c.taper), q.y, constant(c.base_radius));
+  // Where no limit is at work in the support, this keeps it so past a free end, where the cone's other half begins.
+  const Vec straight = hn::MulAdd(constant(c.taper), q.y, constant(c.base_radius));
+  const Vec foot = kLimited ? straight : hn::Max(straight, constant(lowest_radius(c)));
   const Vec e = hn::Mul(constant(c.taper * c.taper), q.rho2);
   Ratio ratio{q.rho2, hn::MulAdd(foot, foot, e)};
-  const Limited l = limited(c, q, foot, e, ratio);
-  const Ends ends = apply_ends(c, q, l.rc, c.free_base, c.free_tip, ratio);
+  Limited l;
+  if constexpr (kLimited) l = limited(c, q, foot, e, ratio);
+  const Ends ends = apply_ends(c, q, kLimited ? l.rc : foot, c.free_base, c.free_tip, ratio);
   const Vec inverse = hn::Div(constant(0.25f), ratio.whole);
   const Vec v = hn::Mul(ratio.part, inverse);
   Vec t, near;
@@ -205,7 +211,9 @@ HWY_INLINE void add_faded(const LocalCone& c, Vec x, Vec y, Vec z, Accumulator& 
   sum.f = hn::MulAdd(weight, g, sum.f);
   if constexpr (kGradients) {
     RatioSlope slope = ratio_slope(c, foot, v, inverse);
-    if (!hn::AllFalse(Tag(), l.any)) limit_slope(c, l, q, foot, slope);
+    if constexpr (kLimited) {
+      if (!hn::AllFalse(Tag(), l.any)) limit_slope(c, l, q, foot, slope);
+    }
     apply_ends(ends, inverse, slope);
     const Vec down = hn::Neg(hn::Mul(t, hn::MulAdd(constant(4.0f / 9), t, hn::Add(near, near))));
     const Vec weight_slope = hn::IfThenElseZero(
@@ -232,10 +240,11 @@ void add_cone(const LocalCone c, const PointBatch& p, const FieldColumns& out) {
       sum.gy = hn::LoadU(d, out.gradient[1] + i);
       sum.gz = hn::LoadU(d, out.gradient[2] + i);
     }
-    if constexpr (kKind == ConeKind::kFaded) {
-      add_faded<kGradients>(c, x, y, z, sum);
+    const AxialPoint q = axial_point(c, x, y, z);
+    if constexpr (kKind == ConeKind::kFaded || kKind == ConeKind::kLimited) {
+      add_faded<kGradients, kKind == ConeKind::kLimited>(c, q, sum);
     } else {
-      add_plain<kGradients, kKind == ConeKind::kPlain>(c, x, y, z, sum);
+      add_plain<kGradients, kKind == ConeKind::kPlain>(c, q, sum);
     }
     hn::StoreU(sum.f, d, out.f + i);
     if constexpr (kGradients) {
@@ -253,18 +262,65 @@ void sum_all(std::span<const LocalCone> cones, const PointBatch& p, const FieldC
     for (float* column : out.gradient) std::fill_n(column, p.size, 0.0f);
   }
   for (const LocalCone& c : cones) {
-    if (c.kind == ConeKind::kSteady) {
-      add_cone<kGradients, ConeKind::kSteady>(c, p, out);
-    } else if (c.kind == ConeKind::kFaded) {
-      add_cone<kGradients, ConeKind::kFaded>(c, p, out);
-    } else {
-      add_cone<kGradients, ConeKind::kPlain>(c, p, out);
+    switch (c.kind) {
+      case ConeKind::kPlain:
+        add_cone<kGradients, ConeKind::kPlain>(c, p, out);
+        break;
+      case ConeKind::kFaded:
+        add_cone<kGradients, ConeKind::kFaded>(c, p, out);
+        break;
+      case ConeKind::kSteady:
+        add_cone<kGradients, ConeKind::kSteady>(c, p, out);
+        break;
+      case ConeKind::kLimited:
+        add_cone<kGradients, ConeKind::kLimited>(c, p, out);
+        break;
     }
   }
 }
 
 void SumCones(std::span<const LocalCone> cones, const PointBatch& points, const FieldColumns& out) {
   out.has_gradient() ? sum_all<true>(cones, points, out) : sum_all<false>(cones, points, out);
+}
+
+template <ConeKind kKind>
+void add_cone_along(const LineCone c, const float* t, float* f) {
+  const Tag d;
+  for (std::size_t i = 0; i < kBatchGranule; i += hn::Lanes(d)) {
+    const Vec at = hn::LoadU(d, t + i);
+    AxialPoint q;  // only its height and distance count where no gradient is wanted
+    q.y = hn::MulAdd(at, constant(c.y1), constant(c.y0));
+    q.rho2 = hn::MulAdd(at, hn::MulAdd(at, constant(c.n2), constant(2 * c.n1)), constant(c.n0));
+    q.rho2 = hn::Max(q.rho2, hn::Zero(d));
+    Accumulator sum;
+    sum.f = hn::LoadU(d, f + i);
+    if constexpr (kKind == ConeKind::kFaded || kKind == ConeKind::kLimited) {
+      add_faded<false, kKind == ConeKind::kLimited>(c, q, sum);
+    } else {
+      add_plain<false, kKind == ConeKind::kPlain>(c, q, sum);
+    }
+    hn::StoreU(sum.f, d, f + i);
+  }
+}
+
+void SumConesAlong(std::span<const LineCone> cones, const float* t, float* f) {
+  std::fill_n(f, kBatchGranule, 0.0f);
+  for (const LineCone& c : cones) {
+    switch (c.kind) {
+      case ConeKind::kPlain:
+        add_cone_along<ConeKind::kPlain>(c, t, f);
+        break;
+      case ConeKind::kFaded:
+        add_cone_along<ConeKind::kFaded>(c, t, f);
+        break;
+      case ConeKind::kSteady:
+        add_cone_along<ConeKind::kSteady>(c, t, f);
+        break;
+      case ConeKind::kLimited:
+        add_cone_along<ConeKind::kLimited>(c, t, f);
+        break;
+    }
+  }
 }
 
 }  // namespace barkridge::HWY_NAMESPACE
@@ -277,6 +333,34 @@ HWY_EXPORT(SumCones);
 
 void sum_cones(std::span<const LocalCone> cones, const PointBatch& points, const FieldColumns& out) {
   HWY_DYNAMIC_DISPATCH(SumCones)(cones, points, out);
+}
+
+HWY_EXPORT(SumConesAlong);
+
+void sum_cones_along(std::span<const LineCone> cones, const float* t, float* f) {
+  HWY_DYNAMIC_DISPATCH(SumConesAlong)(cones, t, f);
+}
+
+LineCone line_cone(const ConeRecord& record, ConeKind kind, const Vec3& origin, const Vec3& direction, double scale) {
+  const Vec3 axis(record.axis), from_base = scale * (origin - record.base);
+  const double y0 = glm::dot(from_base, axis), y1 = glm::dot(direction, axis);
+  const Vec3 beside = from_base - y0 * axis, aside = direction - y1 * axis;
+  return {static_cast<float>(y0),
+          static_cast<float>(y1),
+          static_cast<float>(glm::dot(beside, beside)),
+          static_cast<float>(glm::dot(beside, aside)),
+          static_cast<float>(glm::dot(aside, aside)),
+          record.base_radius,
+          record.tip_radius(),
+          record.taper,
+          record.length,
+          record.rise_start,
+          record.rise_scale,
+          record.fall_start,
+          record.fall_scale,
+          kind,
+          record.has_free_base(),
+          record.has_free_tip()};
 }
 
 LocalCone local_cone(const ConeRecord& record, ConeKind kind, const Vec3& origin, double scale) {

@@ -44,4 +44,19 @@ LocalCone local_cone(const ConeRecord& record, ConeKind kind, const Vec3& origin
 /// The sum of the cones' fields, in their order, written to `out`.
 void sum_cones(std::span<const LocalCone> cones, const PointBatch& points, const FieldColumns& out);
 
+/// A cone as a line sees it, and with it all that its formula needs: the height over its base along the axis is y0 + y1
+/// t and the square of the distance from the axis n0 + 2 n1 t + n2 t^2.
+struct LineCone {
+  float y0, y1, n0, n1, n2;
+  float base_radius, tip_radius, taper, length;
+  float rise_start, rise_scale, fall_start, fall_scale;
+  ConeKind kind;
+  bool free_base, free_tip;
+};
+/// `origin` is the line's point at t = 0; t is in units of the model.
+LineCone line_cone(const ConeRecord& record, ConeKind kind, const Vec3& origin, const Vec3& direction, double scale);
+
+/// The sum of the cones' fields at kBatchGranule points of the line.
+void sum_cones_along(std::span<const LineCone> cones, const float* t, float* f);
+
 }  // namespace barkridge

@@ -193,7 +193,7 @@ struct Setting {
 };
 
 Interval weight_range(const ConeRecord& c, ConeKind kind, const Interval& along, FadeRange& rise, FadeRange& fall) {
-  if (kind != ConeKind::kFaded) return {1, 1};
+  if (kind == ConeKind::kPlain || kind == ConeKind::kSteady) return {1, 1};
   rise = fade_range(along, c.rise_start, c.rise_scale);
   fall = fade_range(along, c.fall_start, c.fall_scale);
   return {std::max(0.0, rise.value.lo - fall.value.hi), std::max(0.0, rise.value.hi - fall.value.lo)};
@@ -211,6 +211,29 @@ ConeBounds weighted(const ConeRecord& c, const Setting& setting, const FieldBoun
 }
 
 }  // namespace
+
+ConeSupport support_of(const ConeRecord& c, ConeKind kind) {
+  const Interval along = axial_support(c);
+  return {along, lateral_support(c, limits_of(c, kind), along)};
+}
+
+namespace {
+
+DistanceSlope slope_in_support(const ConeRecord& c) {
+  const ConeSupport support = support_of(c, ConeKind::kFaded);
+  return distance_slope(c, ConeKind::kFaded, limits_of(c, ConeKind::kFaded), {support.along, support.lateral});
+}
+
+}  // namespace
+
+// A limit is at work also where it alone ends the support sideways, or past a free end.
+ConeKind kind_of_faded(const ConeRecord& c) {
+  const bool ends_support = support_of(c, ConeKind::kFaded).lateral >= 2 * limits_of(c, ConeKind::kFaded).radius.hi;
+  const bool is_steep = 8 * c.taper * c.taper > 1;  // then even the lowest radius does not end it past a free end
+  return is_steep || ends_support || slope_in_support(c).is_limited ? ConeKind::kLimited : ConeKind::kFaded;
+}
+
+double limited_slope(const ConeRecord& c) { return slope_in_support(c).slope; }
 
 ConeBounds bounds_of(const ConeRecord& c, ConeKind kind, const ModelUnits& units, const Box& box) {
   const Vec3 axis(c.axis), from_base = units.scale * (box.center() - c.base), half = units.scale * box.half_extent();
@@ -271,17 +294,6 @@ double nearest_approach(const ConeRecord& c, const Limits& limits, const AxialLi
   return line.y_slope * place + line.nearest;
 }
 
-// The part of the line inside the field's support, where the radius is unlimited: u <= 1 is a quadratic in tau. With a
-// margin, since u is near 1 far from the surface.
-Interval support_along(const ConeRecord& c, const AxialLine& line, double half) {
-  const double s = c.taper, f0 = c.base_radius + s * line.y, f1 = s * line.y_slope, k = 1 - 4 * s * s;
-  const double a = k * line.n2 - 4 * f1 * f1, b = k * line.n1 - 4 * f0 * f1, q = k * line.n0 - 4 * f0 * f0;
-  const double discriminant = b * b - a * q;
-  if (!(a > 1e-9) || discriminant < 0) return {-half, half};
-  const double root = std::sqrt(discriminant), margin = 1e-5 * (half + c.base_radius);
-  return {std::max(-half, (-b - root) / a - margin), std::min(half, (-b + root) / a + margin)};
-}
-
 }  // namespace
 
 namespace {
@@ -299,8 +311,8 @@ Interval part_within(const Interval& heights, double height, double slope, const
 
 }  // namespace
 
-ConeRayBounds bounds_along(const ConeRecord& c, ConeKind kind, const ModelUnits& units, const Ray& ray,
-                           const Interval& range, double slack) {
+ConeBounds bounds_along(const ConeRecord& c, ConeKind kind, const ModelUnits& units, const Ray& ray,
+                        const Interval& range, double slack) {
   // Only the part within the axial support counts.
   const Vec3 axis(c.axis);
   const double y_slope = glm::dot(ray.direction, axis), y_origin = units.scale * glm::dot(ray.origin - c.base, axis);
@@ -339,7 +351,6 @@ ConeRayBounds bounds_along(const ConeRecord& c, ConeKind kind, const ModelUnits&
   };
   const double slope = setting.distance.slope, margin = slope * (place_rounding(units) + off);
   FieldBounds g;
-  Interval reach{-half, half};
   if (setting.distance.is_limited) {
     g = {{0, 1}, kSteepestFalloff * slope, {-kInfinity, kInfinity}};
   } else {
@@ -349,11 +360,9 @@ ConeRayBounds bounds_along(const ConeRecord& c, ConeKind kind, const ModelUnits&
     if (lo >= 1) return {};
     const double hi = std::max(distance(-half), distance(half)) * (1 + kRounding) + margin + kRounding;
     g = falloff_bounds_between({lo, hi}, slope);
-    if (setting.distance.is_unlimited) reach = support_along(c, line, half);
   }
   if (part.lo > range.lo || part.hi < range.hi || slack > 0) g.value.lo = 0;
-  if (slack > 0) reach = {-half, half};
-  return {weighted(c, setting, g, units), {middle + reach.lo / units.scale, middle + reach.hi / units.scale}};
+  return weighted(c, setting, g, units);
 }
 
 }  // namespace barkridge

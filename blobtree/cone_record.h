@@ -22,9 +22,10 @@ struct ModelUnits {
 
 /// How a record is to be evaluated.
 enum class ConeKind : std::uint8_t {
-  kPlain,   ///< a cone with two round caps
-  kFaded,   ///< a faded cone, with everything that its formula has
-  kSteady,  ///< either, where no cap, fade or limit of the radius is at work; restrictions find out where that is
+  kPlain,    ///< a cone with two round caps
+  kFaded,    ///< a faded cone
+  kSteady,   ///< either, where no cap or fade is at work; restrictions find out where that is
+  kLimited,  ///< a faded cone in whose support a limit of the radius may be at work
 };
 
 /// Lengths but for the base are in units of the model: scene units times a scale that all its records share.
@@ -47,6 +48,11 @@ static_assert(sizeof(ConeRecord) == 64);
 ConeRecord record_of(const Cone& cone, double scale);
 ConeRecord record_of(const FadedCone& cone, double scale);
 
+/// kFaded or kLimited.
+ConeKind kind_of_faded(const ConeRecord& cone);
+/// Of a cone whose radius may be limited: a bound of the slope of the normalised distance in its support.
+double limited_slope(const ConeRecord& cone);
+
 struct ConeBounds {
   FieldBounds field;    ///< of values, and of gradients in scene units
   bool steady = false;  ///< whether evaluation as kSteady gives the same bits as the record's kind, all over the box
@@ -56,13 +62,16 @@ struct ConeBounds {
 /// size. [docs/field.md, "Bounds"]
 ConeBounds bounds_of(const ConeRecord& cone, ConeKind kind, const ModelUnits& units, const Box& box);
 
-/// The same along a piece of a ray, and all curves that stay within `slack` of it, point by point; and where along it
-/// the field can be other than zero.
-struct ConeRayBounds {
-  ConeBounds bounds;
-  Interval reach;
+/// The places beside which a cone's field can be other than zero, and the largest distance from its axis; in units of
+/// the model.
+struct ConeSupport {
+  Interval along;
+  double lateral;
 };
-ConeRayBounds bounds_along(const ConeRecord& cone, ConeKind kind, const ModelUnits& units, const Ray& ray,
-                           const Interval& range, double slack = 0);
+ConeSupport support_of(const ConeRecord& cone, ConeKind kind);
+
+/// Those along a piece of a ray, and all curves that stay within `slack` of it, point by point.
+ConeBounds bounds_along(const ConeRecord& cone, ConeKind kind, const ModelUnits& units, const Ray& ray,
+                        const Interval& range, double slack = 0);
 
 }  // namespace barkridge

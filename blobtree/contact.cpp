@@ -56,6 +56,9 @@ double contact_expansion_slope(const ContactShape& shape, double x) {
   return 4.0 * m / (w * w * w) * (x - w) * (12.0 * x - 6.0 * w);
 }
 
+// Where |h'| <= 1, h falls to zero at the width no faster than T - x, which is not below zero there.
+bool is_below_sum(const ContactShape& shape) { return 3.0 * shape.swelling <= shape.width * (1 + 1e-12); }
+
 double most_bent_expansion(const ContactShape& shape) {
   // Both cubics' second derivatives are linear: the largest are at their ends.
   const double w = shape.width, m = shape.swelling;

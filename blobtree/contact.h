@@ -12,6 +12,10 @@ namespace barkridge {
 double contact_expansion(const ContactShape& shape, double x);
 double contact_expansion_slope(const ContactShape& shape, double x);
 
+/// Whether contact never makes more of its children than their sum: h(x) <= T - x. So it is unless
+/// `allow_large_swelling` is used.
+bool is_below_sum(const ContactShape& shape);
+
 /// The largest |h''|.
 double most_bent_expansion(const ContactShape& shape);
 

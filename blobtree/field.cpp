@@ -29,16 +29,37 @@ std::optional<double> search(const Field& field, const Ray& ray, const Interval&
   return RaySearch(sample, bounds, tolerance, any).run(range);
 }
 
+// The whole support as one cell.
+class SingleCell final : public SurfaceCells {
+ public:
+  explicit SingleCell(std::shared_ptr<const Field> field) : field_(std::move(field)), box_(field_->support()) {}
+
+  std::size_t size() const override { return box_.empty() ? 0 : 1; }
+  Box box(std::size_t) const override { return box_; }
+
+  std::optional<double> first_inside(std::size_t, const Ray& ray, const Interval& range,
+                                     double tolerance) const override {
+    const Interval part = clip(ray, box_, range);
+    return part.empty() ? std::nullopt : search(*field_, ray, part, tolerance, false);
+  }
+  bool any_inside(std::size_t, const Ray& ray, const Interval& range, double tolerance) const override {
+    const Interval part = clip(ray, box_, range);
+    return !part.empty() && search(*field_, ray, part, tolerance, true).has_value();
+  }
+  Vec3 gradient(std::size_t, const Vec3& point) const override {
+    double value = 0;
+    Vec3 gradient{0};
+    field_->values_and_gradients({&point, 1}, {&value, 1}, {&gradient, 1});
+    return gradient;
+  }
+
+ private:
+  std::shared_ptr<const Field> field_;
+  Box box_;
+};
+
 }  // namespace
 
-std::vector<Box> Field::cover() const { return support().empty() ? std::vector<Box>{} : std::vector<Box>{support()}; }
-
-std::optional<double> Field::first_inside(const Ray& ray, const Interval& range, double tolerance) const {
-  return search(*this, ray, range, tolerance, false);
-}
-
-bool Field::any_inside(const Ray& ray, const Interval& range, double tolerance) const {
-  return search(*this, ray, range, tolerance, true).has_value();
-}
+std::unique_ptr<const SurfaceCells> Field::cells() const { return std::make_unique<SingleCell>(restricted(support())); }
 
 }  // namespace barkridge

@@ -8,11 +8,10 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <span>
-#include <vector>
 
 #include "base/geometry.h"
+#include "blobtree/surface_cells.h"
 
 namespace barkridge {
 
@@ -53,17 +52,9 @@ class Field {
   /// is promised.
   virtual std::shared_ptr<const Field> restricted(const Box& box) const = 0;
 
-  /// Boxes that together hold the solid, each so small that few primitives matter in it; they may overlap. Cost: in
-  /// proportion to the model.
-  virtual std::vector<Box> cover() const;
-
-  /// The smallest t in `range` at which the ray is inside the solid, or none; exact to `tolerance`. Nothing is missed
-  /// that is thicker than that along the ray and exceeds the iso-value by more than 1e-5. The range must lie in the box
-  /// that the field is restricted to, to rounding.
-  virtual std::optional<double> first_inside(const Ray& ray, const Interval& range, double tolerance) const;
-
-  /// Whether there is any such t. Cheaper.
-  virtual bool any_inside(const Ray& ray, const Interval& range, double tolerance) const;
+  /// Cells that hold the solid, or, if the field is restricted to a box, its part there. Cost: in proportion to the
+  /// model. They keep what they need of the field.
+  virtual std::unique_ptr<const SurfaceCells> cells() const;
 
   /// A measure of the work of one evaluation: the number of primitives. 0 for the zero field.
   virtual std::size_t primitive_count() const = 0;

@@ -65,4 +65,18 @@ std::size_t FieldModel::memory() const {
          warps.capacity() * sizeof(Warp);
 }
 
+bool only_takes_away(const FieldModel& model, std::uint32_t sum) {
+  const FieldOperator* node = &model.operators[sum];
+  bool takes_away = false;
+  while (node->kept_above != kNoOperator) {
+    const FieldOperator& above = model.operators[node->kept_above];
+    if (above.op == FieldInstruction::Op::kNegate ||
+        (above.op == FieldInstruction::Op::kDifference && node->kept_rank == 1)) {
+      takes_away = !takes_away;
+    }
+    node = &above;
+  }
+  return takes_away;
+}
+
 }  // namespace barkridge

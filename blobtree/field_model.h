@@ -68,6 +68,10 @@ struct FieldModel {
   ModelUnits units;
   /// Enclose all values and gradients anywhere.
   FieldBounds bounds;
+  /// Whether no operator makes more of its operands than their sum. Only contact with large swelling does.
+  bool is_below_sum = true;
+  /// Whether some primitives are subtracted.
+  bool takes_away = false;
 
   const Other* other_at(std::uint32_t primitive) const;
   std::size_t memory() const;
@@ -81,9 +85,8 @@ std::shared_ptr<const FieldModel> compile_model(const BlobTree& tree);
 /// the program.
 void assemble(const FieldModel& model, std::span<const std::uint32_t> primitives, FieldProgram& program);
 
-/// Boxes that together hold the solid: a few along each cone, around the part where it can lift the field to the
-/// iso-value with the help of those that matter there.
-std::vector<Box> cover_of(const FieldModel& model);
+/// Whether the primitives of a sum can only lower the field: they stand where something is taken away.
+bool only_takes_away(const FieldModel& model, std::uint32_t sum);
 
 /// Where all warps above a sum move what a box wraps; `box_in(frame)` gives the box in a bend's frame, or in the world
 /// where there is none.
@@ -97,7 +100,7 @@ Box box_in_world(const FieldModel& model, std::uint32_t sum, const BoxIn& box_in
     if (is_moved) {
       box = warp.support(box);
     } else if (const Warp::BendData* bend = warp.bend()) {
-      box = warp.support_of_framed(box_in(&bend->frame));
+      box = bend->frame.to_world(warp.bent_support(box_in(&bend->frame)));
     } else {
       box = warp.support(box_in(nullptr));
     }

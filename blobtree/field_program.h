@@ -84,8 +84,10 @@ std::optional<double> search_along(const FieldModel& model, const FieldProgram& 
 /// the box are those of `program` to the bit.
 FieldBounds bound(const FieldModel& model, const FieldProgram& program, const Box& box, FieldProgram* rest = nullptr);
 
-/// The same along a piece of a ray, on its line instead of in a box.
-RayBounds bound_along(const FieldModel& model, const FieldProgram& program, const Ray& ray, const Interval& range,
-                      FieldProgram& rest);
+struct LineMeeting;
+
+/// The same along a piece of a ray, from what it meets; `program` is that of the primitives it meets.
+FieldBounds bound_along(const FieldModel& model, const FieldProgram& program, const LineMeeting& meeting,
+                        const Ray& ray, const Interval& range, FieldProgram& rest);
 
 }  // namespace barkridge

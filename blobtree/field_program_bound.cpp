@@ -4,6 +4,7 @@
 
 #include "blobtree/contact.h"
 #include "blobtree/field_model.h"
+#include "blobtree/line_cones.h"
 #include "blobtree/operator_bounds.h"
 #include "blobtree/primitive_bounds.h"
 
@@ -54,12 +55,12 @@ class Bounder {
     warps_.clear();
   }
 
-  /// Along a piece of a ray, which lies in the box.
-  RayBounds run(const FieldProgram& program, const Ray& ray, const Interval& range) {
+  /// Along a piece of a ray, which lies in the box, and of which is known what it meets.
+  FieldBounds run(const FieldProgram& program, const Ray& ray, const Interval& range, const LineMeeting& meeting) {
     ray_ = &ray;
     range_ = range;
-    const FieldBounds bounds = run(program);
-    return {bounds, reach_};
+    meeting_ = &meeting;
+    return run(program);
   }
 
   FieldBounds run(const FieldProgram& program) {
@@ -74,7 +75,7 @@ class Bounder {
         push(instruction, {}, true);
         break;
       case Op::kCones:
-        push_cones(std::span(program.cones).subspan(instruction.index, instruction.count));
+        push_cones(program, instruction);
         break;
       case Op::kOther: {
         const FieldModel::Other& other = model_.others[instruction.index];
@@ -82,7 +83,6 @@ class Bounder {
           return std::visit([&](const auto& shape) { return bounds_of(shape, part); }, other.shape);
         });
         push(instruction, bounds, !is_zero(bounds));
-        reach_ = range_;
         break;
       }
       case Op::kNegate:
@@ -126,12 +126,13 @@ class Bounder {
     }
   }
 
-  void push_cones(std::span<const ConeReference> cones) {
+  void push_cones(const FieldProgram& program, const FieldInstruction& instruction) {
     FieldBounds sum{{0, 0}, 0, {0, 0}};
     const std::size_t first = cones_.size();
-    for (const ConeReference& reference : cones) {
+    for (std::size_t k = instruction.index; k < instruction.index + instruction.count; ++k) {
+      const ConeReference& reference = program.cones[k];
       const auto kind = static_cast<ConeKind>(reference.kind);
-      const ConeBounds bounds = bounds_of_cone(model_.cones[reference.cone], kind);
+      const ConeBounds bounds = bounds_of_cone(k, model_.cones[reference.cone], kind);
       if (is_zero(bounds.field)) continue;
       add(sum, bounds.field);
       cones_.emplace_back(reference.cone, bounds.steady ? ConeKind::kSteady : kind);
@@ -140,15 +141,12 @@ class Bounder {
     push({Op::kCones, static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(first)}, sum, count > 0);
   }
 
-  ConeBounds bounds_of_cone(const ConeRecord& cone, ConeKind kind) {
-    if (!ray_ || warps_.size() > 1) return bounds_of(cone, kind, model_.units, box_);
-    if (warps_.size() == 1) {
-      if (!std::isfinite(chord_slack_)) return bounds_of(cone, kind, model_.units, box_);
-      return bounds_along(cone, kind, model_.units, chord_, chord_range_, chord_slack_).bounds;
+  ConeBounds bounds_of_cone(std::size_t number, const ConeRecord& cone, ConeKind kind) const {
+    if (meeting_ && warps_.empty()) return meeting_->cones[number];
+    if (meeting_ && warps_.size() == 1 && std::isfinite(chord_slack_)) {
+      return bounds_along(cone, kind, model_.units, chord_, chord_range_, chord_slack_);
     }
-    const ConeRayBounds along = bounds_along(cone, kind, model_.units, *ray_, range_);
-    reach_ = {std::min(reach_.lo, along.reach.lo), std::max(reach_.hi, along.reach.hi)};
-    return along.bounds;
+    return bounds_of(cone, kind, model_.units, box_);
   }
 
   void push(const FieldInstruction& instruction, const FieldBounds& bounds, bool live) {
@@ -169,8 +167,7 @@ class Bounder {
     warps_.push_back({box_, warped.stretch, warped.curvature, warped.jump, rest_.size()});
     rest_.push_back(instruction);
     box_ = warped.box;
-    reach_ = range_;
-    if (ray_ && warps_.size() == 1) find_chord(model_.warps[instruction.index], warped);
+    if (meeting_ && warps_.size() == 1) find_chord(model_.warps[instruction.index], warped);
   }
 
   // Under a warp the ray's piece is a curve; it stays near the chord of its ends.
@@ -321,12 +318,12 @@ class Bounder {
   std::vector<FieldBounds>& children_;
   std::size_t start_ = 0;
 
+  const LineMeeting* meeting_ = nullptr;
   const Ray* ray_ = nullptr;
   Interval range_;
   Ray chord_;
   Interval chord_range_;
   double chord_slack_ = 0;
-  Interval reach_;
 };
 
 }  // namespace
@@ -339,35 +336,12 @@ FieldBounds bound(const FieldModel& model, const FieldProgram& program, const Bo
   return Bounder(model, box, out, scratch).run(program);
 }
 
-namespace {
-
-// What most programs are by far: a sum of cones.
-RayBounds bound_cones_along(const FieldModel& model, std::span<const ConeReference> cones, const Ray& ray,
-                            const Interval& range, FieldProgram& rest) {
-  RayBounds sum{{{0, 0}, 0, {0, 0}}, {}};
-  for (const ConeReference& reference : cones) {
-    const auto kind = static_cast<ConeKind>(reference.kind);
-    const ConeRayBounds along = bounds_along(model.cones[reference.cone], kind, model.units, ray, range);
-    if (is_zero(along.bounds.field)) continue;
-    add(sum.field, along.bounds.field);
-    sum.reach = {std::min(sum.reach.lo, along.reach.lo), std::max(sum.reach.hi, along.reach.hi)};
-    rest.cones.emplace_back(reference.cone, along.bounds.steady ? ConeKind::kSteady : kind);
-  }
-  if (!rest.cones.empty()) rest.code.push_back({Op::kCones, static_cast<std::uint32_t>(rest.cones.size()), 0});
-  return sum;
-}
-
-}  // namespace
-
-RayBounds bound_along(const FieldModel& model, const FieldProgram& program, const Ray& ray, const Interval& range,
-                      FieldProgram& rest) {
-  rest.clear();
-  if (program.code.size() == 1 && program.code[0].op == Op::kCones) {
-    return bound_cones_along(model, program.cones, ray, range, rest);
-  }
+FieldBounds bound_along(const FieldModel& model, const FieldProgram& program, const LineMeeting& meeting,
+                        const Ray& ray, const Interval& range, FieldProgram& rest) {
   thread_local Scratch scratch;
+  rest.clear();
   const Vec3 a = ray.at(range.lo), b = ray.at(range.hi);
-  return Bounder(model, {glm::min(a, b), glm::max(a, b)}, rest, scratch).run(program, ray, range);
+  return Bounder(model, {glm::min(a, b), glm::max(a, b)}, rest, scratch).run(program, ray, range, meeting);
 }
 
 }  // namespace barkridge

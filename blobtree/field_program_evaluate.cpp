@@ -22,6 +22,7 @@ struct Scratch {
   hwy::AlignedFreeUniquePtr<float[]> numbers;
   std::size_t capacity = 0;
   std::vector<LocalCone> cones;
+  std::vector<LineCone> line_cones;
   std::vector<FieldColumns> fields;
   std::vector<Vec3> origins;
 
@@ -60,6 +61,23 @@ class Machine {
   void set_origin(const Vec3& origin) {
     scratch_.origins[0] = origin;
     if (!has_warps_) localize(program_.cones, origin);
+  }
+
+  /// Whether a line's points can be told by their parameter alone: where nothing but cones is evaluated, unwarped.
+  bool can_follow_line() const {
+    return !has_warps_ && std::none_of(program_.code.begin(), program_.code.end(),
+                                       [](const FieldInstruction& i) { return i.op == Op::kOther; });
+  }
+
+  /// From now on the first column of points is the parameter along a line, in units of the model from `origin` on.
+  void follow_line(const Vec3& origin, const Vec3& direction) {
+    std::vector<LineCone>& cones = scratch_.line_cones;
+    cones.clear();
+    for (const ConeReference& reference : program_.cones) {
+      cones.push_back(line_cone(model_.cones[reference.cone], static_cast<ConeKind>(reference.kind), origin, direction,
+                                model_.units.scale));
+    }
+    is_on_line_ = true;
   }
 
   /// Runs the program on the first `size` points, relative to the origin, in units of the model.
@@ -139,6 +157,9 @@ class Machine {
   // Under warps every set of points has an origin of its own.
   void evaluate_cones(const FieldInstruction& instruction, const PointBatch& points, const FieldColumns& out) {
     std::size_t first = instruction.index;
+    if (is_on_line_) {
+      return sum_cones_along(std::span(scratch_.line_cones).subspan(first, instruction.count), points.at[0], out.f);
+    }
     if (has_warps_) {
       localize(std::span(program_.cones).subspan(first, instruction.count), points.origin);
       first = 0;
@@ -192,6 +213,7 @@ class Machine {
   float* numbers_;
   float* fields_;
   bool has_warps_;
+  bool is_on_line_ = false;
 };
 
 // The grid point next to a point, about which it is evaluated.
@@ -323,13 +345,13 @@ std::optional<double> search_along(const FieldModel& model, const FieldProgram& 
   constexpr std::size_t kSamples = kBatchGranule;
   Machine machine(model, program, kSamples, false, scratch_of_thread());
   const double middle = 0.5 * (range.lo + range.hi);
-  machine.set_origin(ray.at(middle));
-  const Vec3 direction = model.units.scale * ray.direction;
+  const bool follows = machine.can_follow_line();
+  follows ? machine.follow_line(ray.at(middle), ray.direction) : machine.set_origin(ray.at(middle));
   const auto sample = [&](const Interval& part, std::span<double, kSamples> values) {
-    const auto first = static_cast<float>(part.lo - middle);
-    const auto step = static_cast<float>((part.hi - part.lo) / (kSamples - 1));
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto slope = static_cast<float>(direction[static_cast<int>(axis)]);
+    const auto first = static_cast<float>(model.units.scale * (part.lo - middle));
+    const auto step = static_cast<float>(model.units.scale * (part.hi - part.lo) / (kSamples - 1));
+    for (std::size_t axis = 0; axis < (follows ? 1 : 3); ++axis) {
+      const float slope = follows ? 1 : static_cast<float>(ray.direction[static_cast<int>(axis)]);
       float* column = machine.point_column(axis);
       for (std::size_t i = 0; i < kSamples; ++i) column[i] = slope * (first + step * static_cast<float>(i));
     }

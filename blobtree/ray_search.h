@@ -9,12 +9,6 @@
 
 namespace barkridge {
 
-/// A ray's piece and what is known of the field there.
-struct RayBounds {
-  FieldBounds field;
-  Interval reach;  ///< of the ray's parameter: nothing of the solid is met outside of it
-};
-
 /// The smallest t in a range with F >= kIsoValue, or none; with `any`, any such t. `sample(range, values)` gives F at
 /// equal distances along a range, ends included. t is exact to `tolerance`; what is thinner than that along the ray may
 /// be missed, and nothing else.

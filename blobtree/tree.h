@@ -180,8 +180,8 @@ void check(const Node& node);
 /// The number of nodes on the longest way from the root to a primitive; 0 for the empty tree.
 std::size_t depth(const BlobTree& tree);
 
-/// The smallest surface radius among the primitives that the root reaches, what a mesh must resolve: scaled as tapers and
-/// affine nodes above it scale it at the most. 0 without primitives.
+/// The smallest surface radius among the primitives that the root reaches, what a mesh must resolve: scaled as tapers
+/// and affine nodes above it scale it at the most. 0 without primitives.
 double thinnest_radius(const BlobTree& tree);
 
 /// The text form, readable by `parse_tree`, which gives back an equal tree up to the numbers of its nodes:

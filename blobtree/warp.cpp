@@ -294,10 +294,7 @@ WarpedBox Warp::map(const Box& box) const {
       data_);
 }
 
-Box Warp::support_of_framed(const Box& local) const {
-  const BendData& d = std::get<BendData>(data_);
-  return d.frame.to_world(support_local(d, local));
-}
+Box Warp::bent_support(const Box& local) const { return support_local(std::get<BendData>(data_), local); }
 
 Box Warp::support(const Box& child_support) const {
   if (child_support.empty()) return {};

@@ -55,8 +55,9 @@ class Warp {
   const BendData* bend() const { return std::get_if<BendData>(&data_); }
   /// A box that holds every p with w(p) in `child_support`.
   Box support(const Box& child_support) const;
-  /// The same for a bend, from a box in its frame: one along the axis, which a box in the world wraps but loosely.
-  Box support_of_framed(const Box& local) const;
+  /// The same for a bend, from a box in its frame to one in it: along the axis, which boxes in the world wrap but
+  /// loosely.
+  Box bent_support(const Box& local) const;
 
  private:
   struct TwistData {

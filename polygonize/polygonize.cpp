@@ -43,14 +43,15 @@ void sort_and_unite(std::vector<glm::ivec3>& blocks) {
   blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
 }
 
-// All blocks that the field's cover overlaps, each once, in order. Boxes of a cover follow the model, so neighbours
-// name the same blocks again: doubles are dropped early.
+// All blocks that the field's cells overlap, each once, in order. Cells follow the model, so neighbours name the same
+// blocks again: doubles are dropped early.
 std::vector<glm::ivec3> blocks_to_visit(const Lattice& lattice, const Field& field) {
   constexpr std::size_t kWorthUniting = std::size_t{1} << 22;
   std::vector<glm::ivec3> blocks;
   std::size_t united = 0;
-  for (const Box& box : field.cover()) {
-    const BlockRange range = blocks_of(lattice, box);
+  const std::unique_ptr<const SurfaceCells> cells = field.cells();
+  for (std::size_t i = 0; i < cells->size(); ++i) {
+    const BlockRange range = blocks_of(lattice, cells->box(i));
     for (int z = range.lo.z; z < range.hi.z; ++z) {
       for (int y = range.lo.y; y < range.hi.y; ++y) {
         for (int x = range.lo.x; x < range.hi.x; ++x) blocks.emplace_back(x, y, z);

@@ -3,13 +3,10 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <new>
+#include <optional>
 #include <string>
-#include <vector>
-
-#include "raytrace/clip.h"
 
 namespace barkridge {
 
@@ -29,35 +26,6 @@ using SceneHandle = std::unique_ptr<RTCSceneTy, ReleaseScene>;
 // lengthened.
 constexpr double kFloatMargin = 1e-6;
 
-// A box that may hold part of the solid, and the model restricted to it once a ray has come by. Whichever thread gets
-// there first leaves its restriction for all; they are equal.
-class SurfaceCell {
- public:
-  SurfaceCell() = default;
-  SurfaceCell(const SurfaceCell&) = delete;
-  SurfaceCell& operator=(const SurfaceCell&) = delete;
-  ~SurfaceCell() { delete restricted_.load(); }
-
-  const Field& field(const Field& model) const {
-    const FieldPtr* known = restricted_.load(std::memory_order_acquire);
-    return known ? **known : restrict_now(model);
-  }
-
-  Box box;
-
- private:
-  using FieldPtr = std::shared_ptr<const Field>;
-
-  const Field& restrict_now(const Field& model) const {
-    auto mine = std::make_unique<const FieldPtr>(model.restricted(box));
-    const FieldPtr* known = nullptr;
-    if (restricted_.compare_exchange_strong(known, mine.get(), std::memory_order_acq_rel)) return **mine.release();
-    return **known;
-  }
-
-  mutable std::atomic<const FieldPtr*> restricted_ = nullptr;
-};
-
 // The ray as the callbacks need it, found again through the first member's address. Its origin is where it enters the
 // scene, so that t counts from there and is precise for rays from afar.
 struct Query {
@@ -65,7 +33,7 @@ struct Query {
   Ray ray;
   double length = 0;
   double t = std::numeric_limits<double>::infinity();
-  const SurfaceCell* cell = nullptr;
+  std::optional<std::size_t> cell;
 };
 
 }  // namespace
@@ -75,8 +43,7 @@ struct Tracer::Scene {
   Vec3 center{0};
   double scale = 1;
   double tolerance = 0;
-  std::shared_ptr<const Field> model;
-  std::vector<SurfaceCell> cells;
+  std::unique_ptr<const SurfaceCells> cells;
   DeviceHandle device;
   SceneHandle embree;
 
@@ -89,7 +56,7 @@ struct Tracer::Scene {
 
 void Tracer::Scene::bounds_callback(const RTCBoundsFunctionArguments* arguments) {
   const Scene& scene = *static_cast<const Scene*>(arguments->geometryUserPtr);
-  const Box& box = scene.cells[arguments->primID].box;
+  const Box box = scene.cells->box(arguments->primID);
   const Box unit = grown({(box.lo - scene.center) * scene.scale, (box.hi - scene.center) * scene.scale}, kFloatMargin);
   RTCBounds& out = *arguments->bounds_o;
   out.lower_x = static_cast<float>(unit.lo.x);
@@ -106,13 +73,11 @@ void Tracer::Scene::intersect_callback(const RTCIntersectFunctionNArguments* arg
   if (!arguments->valid[0]) return;
   const Scene& scene = *static_cast<const Scene*>(arguments->geometryUserPtr);
   Query& query = *reinterpret_cast<Query*>(arguments->context);
-  const SurfaceCell& cell = scene.cells[arguments->primID];
-  const Interval range = clip(query.ray, cell.box, {0, query.length});
-  if (range.empty() || range.lo >= query.t) return;
-  const std::optional<double> t = cell.field(*scene.model).first_inside(query.ray, range, scene.tolerance);
+  const std::size_t cell = arguments->primID;
+  const std::optional<double> t = scene.cells->first_inside(cell, query.ray, {0, query.length}, scene.tolerance);
   if (!t || *t >= query.t) return;
   query.t = *t;
-  query.cell = &cell;
+  query.cell = cell;
   RTCRay& ray = reinterpret_cast<RTCRayHit*>(arguments->rayhit)->ray;
   ray.tfar = std::min(ray.tfar, static_cast<float>(*t * scene.scale + 2 * kFloatMargin));
 }
@@ -121,10 +86,7 @@ void Tracer::Scene::occluded_callback(const RTCOccludedFunctionNArguments* argum
   if (!arguments->valid[0]) return;
   const Scene& scene = *static_cast<const Scene*>(arguments->geometryUserPtr);
   const Query& query = *reinterpret_cast<const Query*>(arguments->context);
-  const SurfaceCell& cell = scene.cells[arguments->primID];
-  const Interval range = clip(query.ray, cell.box, {0, query.length});
-  if (range.empty()) return;
-  if (cell.field(*scene.model).any_inside(query.ray, range, scene.tolerance)) {
+  if (scene.cells->any_inside(arguments->primID, query.ray, {0, query.length}, scene.tolerance)) {
     reinterpret_cast<RTCRay*>(arguments->ray)->tfar = -std::numeric_limits<float>::infinity();
   }
 }
@@ -135,7 +97,7 @@ void Tracer::Scene::build() {
   embree.reset(rtcNewScene(device.get()));
   rtcSetSceneFlags(embree.get(), RTC_SCENE_FLAG_ROBUST);
   const RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(cells.size()));
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(cells->size()));
   rtcSetGeometryUserData(geometry, this);
   rtcSetGeometryBoundsFunction(geometry, bounds_callback, nullptr);
   rtcSetGeometryIntersectFunction(geometry, intersect_callback);
@@ -152,7 +114,7 @@ void Tracer::Scene::build() {
 // Sets up a query and Embree's ray for it. False when the ray misses everything. `range` becomes the part within the
 // scene.
 bool Tracer::Scene::begin(Query& query, RTCRay& out, const Ray& ray, Interval& range) const {
-  if (cells.empty()) return false;
+  if (cells->size() == 0) return false;
   range = clip(ray, support, range);
   if (range.empty()) return false;
   query.ray = {ray.at(range.lo), ray.direction};
@@ -173,12 +135,10 @@ bool Tracer::Scene::begin(Query& query, RTCRay& out, const Ray& ray, Interval& r
 
 Tracer::Tracer(const Field& field, const Progress& progress) : scene_(std::make_unique<Scene>()) {
   report(progress, 0);
-  const std::vector<Box> boxes = field.cover();
-  scene_->model = field.restricted(field.support());
-  scene_->cells = std::vector<SurfaceCell>(boxes.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i) scene_->cells[i].box = boxes[i];
-  if (scene_->cells.empty()) return;
-  for (const SurfaceCell& cell : scene_->cells) scene_->support = unite(scene_->support, cell.box);
+  scene_->cells = field.cells();
+  const std::size_t count = scene_->cells->size();
+  if (count == 0) return;
+  for (std::size_t i = 0; i < count; ++i) scene_->support = unite(scene_->support, scene_->cells->box(i));
   const double diagonal = scene_->support.diagonal();
   scene_->center = scene_->support.center();
   scene_->scale = diagonal > 0 ? 2 / diagonal : 1;
@@ -203,10 +163,8 @@ std::optional<Hit> Tracer::first_hit(const Ray& ray, double t_min, double t_max)
   rtcIntersect1(scene_->embree.get(), &query.context, &rayhit);
   if (!query.cell) return std::nullopt;
 
-  const Vec3 point = glm::clamp(query.ray.at(query.t), query.cell->box.lo, query.cell->box.hi);
-  double value = 0;
-  Vec3 gradient{0};
-  query.cell->field(*scene_->model).values_and_gradients({&point, 1}, {&value, 1}, {&gradient, 1});
+  const Vec3 point = query.ray.at(query.t);
+  const Vec3 gradient = scene_->cells->gradient(*query.cell, point);
   const double slope = glm::length(gradient);
   const bool steep = slope > 0 && std::isfinite(slope);
   Hit hit{range.lo + query.t, point, steep ? -gradient / slope : -ray.direction, 0};

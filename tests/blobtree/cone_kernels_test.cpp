@@ -1,33 +1,18 @@
 #include "blobtree/cone_kernels.h"
 
-#include <hwy/targets.h>
-
 #include <array>
 #include <catch2/catch.hpp>
 #include <vector>
 
 #include "blobtree/falloff.h"
 #include "blobtree/primitive.h"
+#include "tests/blobtree/instruction_sets.h"
 #include "tests/blobtree/random_trees.h"
 
 using namespace barkridge;
 using namespace barkridge::test;
 
 namespace {
-
-// Runs `check` once for each instruction set of this machine, and tells how many there are.
-template <typename Check>
-int on_every_instruction_set(Check check) {
-  int sets = 0;
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    hwy::SetSupportedTargetsForTest(target);
-    CAPTURE(hwy::TargetName(target));
-    check();
-    ++sets;
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  return sets;
-}
 
 FadedCone random_faded_cone(RandomSource& random) {
   const auto radius = [&] { return random.uniform(0.1, 0.6); };
@@ -57,7 +42,7 @@ TEST_CASE("every instruction set agrees with the plain formulas of cones to 1e-5
         for (float& x : column) x = static_cast<float>(random.uniform(-1.5, 1.5));
       }
       const ConeRecord record = is_faded ? record_of(faded, 1) : record_of(plain, 1);
-      const LocalCone local = local_cone(record, is_faded ? ConeKind::kFaded : ConeKind::kPlain, Vec3(0), 1);
+      const LocalCone local = local_cone(record, is_faded ? kind_of_faded(record) : ConeKind::kPlain, Vec3(0), 1);
       sum_cones({&local, 1}, {Vec3(0), {p[0].data(), p[1].data(), p[2].data()}, kPoints},
                 {out[0].data(), {out[1].data(), out[2].data(), out[3].data()}});
       for (std::size_t k = 0; k < kPoints; ++k) {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "blobtree/field.h"
-#include "raytrace/clip.h"
 
 namespace barkridge::test {
 

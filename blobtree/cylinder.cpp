@@ -1,0 +1,63 @@
+#include "blobtree/cylinder.h"
+
+#include <cmath>
+
+#include "blobtree/primitive_bounds.h"
+
+namespace barkridge {
+
+Cylinder cylinder_around(const Box& box) {
+  const Vec3 half = box.half_extent();
+  return {box.center(), {1, 0, 0}, half.x, std::hypot(half.y, half.z)};
+}
+
+Box box_around(const Cylinder& c) {
+  const Vec3 end = c.half_length * c.axis;
+  return unite(disc_box(c.center - end, c.axis, c.radius), disc_box(c.center + end, c.axis, c.radius));
+}
+
+Interval clip(const Ray& ray, const Cylinder& c, Interval range) {
+  // A slope that small cannot be told from none.
+  constexpr double kNone = 1e-12;
+  const Vec3 from_center = ray.origin - c.center;
+  const double y = glm::dot(from_center, c.axis), y_slope = glm::dot(ray.direction, c.axis);
+  const Vec3 beside = from_center - y * c.axis, aside = ray.direction - y_slope * c.axis;
+  const double a = glm::dot(aside, aside), b = glm::dot(beside, aside);
+  const double outside = glm::dot(beside, beside) - c.radius * c.radius;
+  if (a > kNone) {
+    const double discriminant = b * b - a * outside;
+    if (discriminant < 0) return {};
+    const double root = std::sqrt(discriminant);
+    range = {std::max(range.lo, (-b - root) / a), std::min(range.hi, (-b + root) / a)};
+  } else if (outside > 0) {
+    return {};
+  }
+  if (std::abs(y_slope) > kNone) {
+    const double middle = -y / y_slope, half = std::abs(c.half_length / y_slope);
+    range = {std::max(range.lo, middle - half), std::min(range.hi, middle + half)};
+  } else if (std::abs(y) > c.half_length) {
+    return {};
+  }
+  return range;
+}
+
+// The distance of two segments [Ericson 2005, "Real-Time Collision Detection", section 5.1.9].
+bool may_overlap(const Cylinder& a, const Cylinder& b) {
+  const Vec3 between = a.center - b.center;
+  const double reach = a.radius + b.radius, far = reach + a.half_length + b.half_length;
+  const double distance2 = glm::dot(between, between);
+  if (distance2 > far * far) return false;
+  const double cosine = glm::dot(a.axis, b.axis), along_a = glm::dot(a.axis, between),
+               along_b = glm::dot(b.axis, between);
+  const double sine2 = 1 - cosine * cosine;
+  double s = sine2 > 1e-9 ? std::clamp((cosine * along_b - along_a) / sine2, -a.half_length, a.half_length) : 0;
+  double t = cosine * s + along_b;
+  if (std::abs(t) > b.half_length) {
+    t = std::copysign(b.half_length, t);
+    s = std::clamp(cosine * t - along_a, -a.half_length, a.half_length);
+  }
+  const Vec3 way = between + s * a.axis - t * b.axis;
+  return glm::dot(way, way) <= reach * reach * (1 + 1e-9);
+}
+
+}  // namespace barkridge

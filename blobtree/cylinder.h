@@ -1,0 +1,24 @@
+#pragma once
+// Solid cylinders, around parts of branches.
+
+#include "base/geometry.h"
+
+namespace barkridge {
+
+struct Cylinder {
+  Vec3 center{0};
+  Vec3 axis{1, 0, 0};  ///< of length 1
+  double half_length = 0;
+  double radius = 0;
+};
+
+Cylinder cylinder_around(const Box& box);
+Box box_around(const Cylinder& cylinder);
+
+/// The part of a range in which a ray is in the cylinder, or a little more.
+Interval clip(const Ray& ray, const Cylinder& cylinder, Interval range);
+
+/// Whether two cylinders may overlap: whether their axes come nearer to each other than the sum of the radii.
+bool may_overlap(const Cylinder& a, const Cylinder& b);
+
+}  // namespace barkridge

@@ -1,0 +1,253 @@
+#include "blobtree/model_cells.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+
+#include "blobtree/falloff.h"
+#include "blobtree/line_cones.h"
+#include "blobtree/tube.h"
+
+namespace barkridge {
+
+namespace {
+
+using ModelPtr = std::shared_ptr<const FieldModel>;
+
+// Where no operator makes more of its operands than their sum, and k primitives matter at a point of the solid, the
+// strongest of them has at least the k-th part of the iso-value there: the point is within that one's level of this
+// normalised distance.
+constexpr std::size_t kMostCounted = 32;
+
+std::array<double, kMostCounted + 1> level_distances() {
+  std::array<double, kMostCounted + 1> distances{};
+  for (std::size_t k = 1; k <= kMostCounted; ++k) {
+    double lo = 0, hi = 1;
+    for (int i = 0; i < 40; ++i) {
+      const double middle = 0.5 * (lo + hi);
+      (falloff(middle * middle) < kIsoValue / static_cast<double>(k) ? hi : lo) = middle;
+    }
+    distances[k] = hi * (1 + 1e-5);
+  }
+  return distances;
+}
+
+// Cylinders of long slanting tubes fit into boxes but loosely: shorter pieces do better.
+int piece_count(const Tube& tube) {
+  constexpr double kLongest = 5;  // radii
+  constexpr double kMostPieces = 8;
+  Vec3 extent = glm::abs(tube.axis) * (tube.along.hi - tube.along.lo);
+  std::sort(&extent.x, &extent.x + 3);
+  return static_cast<int>(std::clamp(std::ceil(extent.y / (kLongest * tube.base_radius)), 1.0, kMostPieces));
+}
+
+// A cell and the primitives that matter in it, as a part of a list.
+struct CellPlan {
+  Cylinder cylinder;
+  std::uint32_t first = 0, count = 0;
+};
+
+struct Plan {
+  std::vector<CellPlan> cells;
+  std::vector<std::uint32_t> primitives;
+};
+
+// Plans the cells of primitives that are neighbours in space.
+class Planner {
+ public:
+  Planner(const FieldModel& model, const Box& region) : model_(model), region_(region) {}
+
+  void plan(std::span<const std::uint32_t> neighbours, Plan& plan) {
+    Box around;
+    for (const std::uint32_t primitive : neighbours) around = unite(around, model_.supports.box(primitive));
+    around = intersect(around, region_);
+    if (around.empty()) return;
+    numbers_.clear();
+    model_.supports.find(around, model_.cones.size(), numbers_);
+    all_.clear();
+    for (const std::uint32_t number : numbers_) all_.push_back({number, support_cylinder(model_, number)});
+    for (const std::uint32_t primitive : neighbours) plan_primitive(primitive, plan);
+  }
+
+ private:
+  struct Candidate {
+    std::uint32_t number;
+    Cylinder support;
+  };
+
+  void plan_primitive(std::uint32_t primitive, Plan& plan) {
+    const std::uint32_t sum = model_.sums[primitive];
+    if (only_takes_away(model_, sum)) return;
+    const Cylinder support = support_cylinder(model_, primitive);
+    near_.clear();
+    std::copy_if(all_.begin(), all_.end(), std::back_inserter(near_),
+                 [&](const Candidate& candidate) { return may_overlap(support, candidate.support); });
+    if (model_.other_at(primitive)) return add(support, plan);
+    const Tube tube = tube_of(model_.cones[primitive], model_.kinds[primitive], model_.units.scale);
+    if (tube.along.empty()) return;
+    const int pieces = piece_count(tube);
+    const double step = (tube.along.hi - tube.along.lo) / pieces;
+    for (int i = 0; i < pieces; ++i) {
+      const double from = tube.along.lo + i * step, to = i + 1 < pieces ? from + step : tube.along.hi;
+      add_piece(sum, tube, from, to, plan);
+    }
+  }
+
+  // The fewer primitives reach a level, the narrower is the one that matters.
+  void add_piece(std::uint32_t sum, const Tube& tube, double from, double to, Plan& plan) {
+    static const std::array<double, kMostCounted + 1> kDistances = level_distances();
+    std::optional<Cylinder> cylinder = cylinder_of(model_, sum, tube, 1, from, to);
+    constexpr int kRounds = 2;
+    for (int round = 0; round < kRounds && cylinder && model_.is_below_sum && tube.limit == 0; ++round) {
+      const auto count =
+          static_cast<std::size_t>(std::count_if(near_.begin(), near_.end(), [&](const Candidate& candidate) {
+            return may_overlap(*cylinder, candidate.support);
+          }));
+      if (count > kMostCounted) break;
+      cylinder = cylinder_of(model_, sum, tube, kDistances[std::max<std::size_t>(1, count)], from, to);
+    }
+    if (cylinder) add(*cylinder, plan);
+  }
+
+  void add(const Cylinder& cylinder, Plan& plan) const {
+    if (!box_around(cylinder).overlaps(region_)) return;
+    const std::size_t first = plan.primitives.size();
+    for (const Candidate& candidate : near_) {
+      if (may_overlap(cylinder, candidate.support)) plan.primitives.push_back(candidate.number);
+    }
+    plan.cells.push_back(
+        {cylinder, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(plan.primitives.size() - first)});
+  }
+
+  const FieldModel& model_;
+  const Box& region_;
+  std::vector<std::uint32_t> numbers_;
+  std::vector<Candidate> all_;   // that may matter to any of the neighbours
+  std::vector<Candidate> near_;  // that may matter to one of them
+};
+
+class ModelCells final : public SurfaceCells {
+ public:
+  ModelCells(ModelPtr model, const Box& region) : model_(std::move(model)), region_(region) {
+    constexpr std::size_t kChunk = 64;
+    const std::size_t groups = model_->supports.group_count();
+    std::vector<Plan> plans((groups + kChunk - 1) / kChunk);
+    tbb::parallel_for(std::size_t{0}, plans.size(), [&](std::size_t i) {
+      Planner planner(*model_, region_);
+      for (std::size_t g = i * kChunk; g < std::min(groups, (i + 1) * kChunk); ++g) {
+        planner.plan(model_->supports.group(g), plans[i]);
+      }
+    });
+    unite(plans);
+    const Box all = model_->support;
+    is_part_ = !region_.contains(all.lo) || !region_.contains(all.hi);
+  }
+
+  std::size_t size() const override { return cells_.size(); }
+
+  Box box(std::size_t cell) const override {
+    return intersect(intersect(box_around(cells_[cell].cylinder()), model_->support), region_);
+  }
+
+  std::optional<double> first_inside(std::size_t cell, const Ray& ray, const Interval& range,
+                                     double tolerance) const override {
+    return search(cell, ray, range, tolerance, false);
+  }
+  bool any_inside(std::size_t cell, const Ray& ray, const Interval& range, double tolerance) const override {
+    return search(cell, ray, range, tolerance, true).has_value();
+  }
+
+  Vec3 gradient(std::size_t cell, const Vec3& point) const override {
+    thread_local LineMeeting meeting;
+    thread_local FieldProgram program;
+    meet(*model_, primitives_of(cells_[cell]), {point, {0, 0, -1}}, {0, 0}, meeting);
+    assemble(*model_, meeting.primitives, program);
+    double value = 0;
+    Vec3 gradient{0};
+    evaluate(*model_, program, {&point, 1}, {&value, 1}, {&gradient, 1});
+    return gradient;
+  }
+
+ private:
+  // The cylinder, in single precision and so a little larger, and the primitives that matter in it.
+  struct Cell {
+    std::array<float, 3> center, axis;
+    float half_length, radius;
+    std::uint64_t first : 40, count : 24;
+
+    Cell(const CellPlan& plan, std::size_t offset)
+        : first((offset + plan.first) & ((std::uint64_t{1} << 40) - 1)), count(plan.count & 0xffffff) {
+      const Cylinder& c = plan.cylinder;
+      const double off = 0x1p-22 * (glm::length(c.center) + c.half_length + c.radius);
+      for (int k = 0; k < 3; ++k) {
+        center[static_cast<std::size_t>(k)] = static_cast<float>(c.center[k]);
+        axis[static_cast<std::size_t>(k)] = static_cast<float>(c.axis[k]);
+      }
+      half_length = static_cast<float>(c.half_length + off);
+      radius = static_cast<float>(c.radius + off);
+    }
+
+    Cylinder cylinder() const {
+      return {{center[0], center[1], center[2]}, {axis[0], axis[1], axis[2]}, half_length, radius};
+    }
+  };
+
+  void unite(const std::vector<Plan>& plans) {
+    std::size_t cells = 0, primitives = 0;
+    for (const Plan& plan : plans) cells += plan.cells.size(), primitives += plan.primitives.size();
+    cells_.reserve(cells);
+    primitives_.reserve(primitives);
+    for (const Plan& plan : plans) {
+      for (const CellPlan& cell : plan.cells) cells_.emplace_back(cell, primitives_.size());
+      primitives_.insert(primitives_.end(), plan.primitives.begin(), plan.primitives.end());
+    }
+  }
+
+  std::optional<double> search(std::size_t number, const Ray& ray, const Interval& range, double tolerance,
+                               bool any) const {
+    Interval part = clip(ray, cells_[number].cylinder(), range);
+    if (is_part_ && !part.empty()) part = clip(ray, region_, part);
+    return part.empty() ? std::nullopt : search(primitives_of(cells_[number]), ray, part, tolerance, any);
+  }
+
+  // Most of the few primitives that matter in the cell do not matter on the ray.
+  std::optional<double> search(std::span<const std::uint32_t> primitives, const Ray& ray, const Interval& range,
+                               double tolerance, bool any) const {
+    thread_local LineMeeting meeting;
+    meet(*model_, primitives, ray, range, meeting);
+    const Interval reach = meeting.reach;
+    if (reach.empty() || (model_->is_below_sum && meeting.highest_sum < kIsoValue)) return std::nullopt;
+    thread_local FieldProgram met, rest;
+    assemble(*model_, meeting.primitives, met);
+    const FieldBounds bounds = bound_along(*model_, met, meeting, ray, reach, rest);
+    if (bounds.value.hi < kIsoValue) return std::nullopt;
+    // Under warps only short pieces have good bounds.
+    constexpr double kMostVariation = 24;
+    const double length = reach.hi - reach.lo, middle = 0.5 * (reach.lo + reach.hi);
+    if (std::isinf(bounds.second.lo) && bounds.slope * length > kMostVariation && length > 2 * tolerance) {
+      const std::optional<double> first = search(primitives, ray, {reach.lo, middle}, tolerance, any);
+      return first ? first : search(primitives, ray, {middle, reach.hi}, tolerance, any);
+    }
+    return search_along(*model_, rest, bounds, ray, reach, tolerance, any);
+  }
+
+  std::span<const std::uint32_t> primitives_of(const Cell& cell) const {
+    return std::span(primitives_).subspan(cell.first, cell.count);
+  }
+
+  ModelPtr model_;
+  Box region_;
+  bool is_part_ = false;
+  std::vector<Cell> cells_;
+  std::vector<std::uint32_t> primitives_;
+};
+
+}  // namespace
+
+std::unique_ptr<const SurfaceCells> cells_of(ModelPtr model, const Box& region) {
+  return std::make_unique<ModelCells>(std::move(model), region);
+}
+
+}  // namespace barkridge

@@ -1,0 +1,44 @@
+#pragma once
+// A cone and the levels of its field as cylinders around it.
+
+#include <optional>
+
+#include "blobtree/cylinder.h"
+#include "blobtree/field_model.h"
+
+namespace barkridge {
+
+/// The part of a cone's support in which it is not zero, in scene units.
+struct Tube {
+  Vec3 base, axis;
+  double base_radius, taper, length;
+  Interval along;
+  bool free_base, free_tip;
+  double limit = 0;  // no level is wider, where a limit of the radius is at work: then levels are not told apart
+
+  double radius_at(double y) const {
+    return base_radius + taper * std::clamp(y, free_base ? 0 : y, free_tip ? length : y);
+  }
+
+  /// The places beside which the level u can be, between two others.
+  Interval part(double u, double from, double to) const {
+    if (limit == 0 && free_base) from = std::max(from, -2 * u * base_radius);
+    if (limit == 0 && free_tip) to = std::min(to, length + 2 * u * (base_radius + taper * length));
+    return {from, to};
+  }
+  /// The level lies within this distance of the axis there.
+  double reach(double u, const Interval& part) const {
+    if (limit > 0) return limit;
+    return 2 * u * std::max(radius_at(part.lo), radius_at(part.hi)) / std::sqrt(1 - 4 * u * u * taper * taper);
+  }
+};
+Tube tube_of(const ConeRecord& cone, ConeKind kind, double scale);
+
+/// The part of a tube's level u between two places, moved by the warps above its sum; nothing where the level is not.
+std::optional<Cylinder> cylinder_of(const FieldModel& model, std::uint32_t sum, const Tube& tube, double u, double from,
+                                    double to);
+
+/// A cylinder that holds the support of a primitive, in scene units.
+Cylinder support_cylinder(const FieldModel& model, std::uint32_t primitive);
+
+}  // namespace barkridge

@@ -1,0 +1,180 @@
+#include "blobtree/line_cones.h"
+
+#include <catch2/catch.hpp>
+
+#include "blobtree/cone_kernels.h"
+#include "blobtree/from_skeleton.h"
+#include "blobtree/primitive.h"
+#include "tests/blobtree/instruction_sets.h"
+#include "tests/blobtree/random_trees.h"
+#include "tests/support/skeletons.h"
+
+using namespace barkridge;
+using namespace barkridge::test;
+
+namespace {
+
+std::vector<std::uint32_t> all_of(const FieldModel& model) {
+  std::vector<std::uint32_t> all(model.cones.size());
+  for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
+  return all;
+}
+
+// F and |grad F| by all primitives.
+FieldSample sample_at(const FieldModel& model, const FieldProgram& program, const Vec3& p) {
+  FieldSample s{0, Vec3(0)};
+  evaluate(model, program, {&p, 1}, {&s.value, 1}, {&s.gradient, 1});
+  return s;
+}
+
+// Tapers from gentle to so steep that the limits of the radius are at work, free ends and faded ones.
+BlobTree random_cones(RandomSource& random, int count) {
+  BlobTree tree;
+  std::vector<NodeId> children;
+  const auto radius = [&] { return random.uniform(0.05, 0.5); };
+  for (int i = 0; i < count; ++i) {
+    const Vec3 base = random.in_box({Vec3(-1), Vec3(1)}), tip = base + random.uniform(0.1, 1.5) * random.direction();
+    const double r0 = radius(), r1 = random.chance(0.6) ? r0 * random.uniform(0.8, 1.1) : radius();
+    if (random.chance(0.5)) {
+      children.push_back(tree.add(Cone{base, tip, r0, r1}));
+    } else {
+      const double parent = random.chance(0.6) ? radius() : 0, child = random.chance(0.6) ? radius() : 0;
+      children.push_back(tree.add(FadedCone{base, tip, r0, r1, parent, child}));
+    }
+  }
+  tree.add(Sum{}, std::move(children));
+  return tree;
+}
+
+struct Tally {
+  int rays = 0, met = 0, unmet = 0, steady = 0, bounded = 0;
+};
+
+// Everything that a meeting says of a piece of a ray, at points of it.
+void check_meeting(const FieldModel& model, const Ray& ray, const Interval& range, RandomSource& random, Tally& tally) {
+  const std::vector<std::uint32_t> all = all_of(model);
+  FieldProgram whole, met, rest;
+  assemble(model, all, whole);
+  LineMeeting meeting;
+  meet(model, all, ray, range, meeting);
+  ++tally.rays;
+  tally.met += static_cast<int>(meeting.primitives.size());
+  tally.unmet += static_cast<int>(all.size() - meeting.primitives.size());
+  for (const ConeBounds& bounds : meeting.cones) tally.steady += bounds.steady;
+  assemble(model, meeting.primitives, met);
+  const Interval piece = meeting.reach.empty() ? range : meeting.reach;
+  const FieldBounds bounds = bound_along(model, met, meeting, ray, piece, rest);
+  tally.bounded += std::isfinite(bounds.second.lo);
+  const auto point = [&](const Interval& in) { return random.uniform(in.lo, in.hi); };
+  for (int k = 0; k < 12; ++k) {
+    const double t = point(range);
+    const FieldSample expected = sample_at(model, whole, ray.at(t));
+    CAPTURE(t, range.lo, range.hi, meeting.reach.lo, meeting.reach.hi, expected.value);
+    REQUIRE(sample_at(model, met, ray.at(t)).value == expected.value);
+    if (model.is_below_sum) REQUIRE(expected.value <= meeting.highest_sum + 1e-5);
+    if (!meeting.reach.contains(t)) {
+      REQUIRE(expected.value <= 1e-5);
+      continue;
+    }
+    REQUIRE(std::abs(sample_at(model, rest, ray.at(t)).value - expected.value) <= 1e-6);
+    REQUIRE(expected.value <= bounds.value.hi + 1e-5);
+    REQUIRE(expected.value >= bounds.value.lo - 1e-5);
+    REQUIRE(glm::length(expected.gradient) <= bounds.slope * (1 + 1e-4) + 1e-4);
+    const double a = point(piece), b = point(piece), h = b - a;
+    const double least = std::max(sample_at(model, whole, ray.at(a)).value, sample_at(model, whole, ray.at(b)).value);
+    const double between = sample_at(model, whole, ray.at(a + random.uniform(0, 1) * h)).value;
+    REQUIRE(between <= least - bounds.second.lo * h * h / 8 + 1e-5);
+  }
+}
+
+Ray random_ray(const BlobTree& tree, RandomSource& random) {
+  const Vec3 origin = random.in_box({Vec3(-2), Vec3(2)});
+  // Every tenth runs along some cone's axis.
+  const Node& node = tree.nodes[static_cast<std::size_t>(random.integer(0, static_cast<int>(tree.nodes.size()) - 1))];
+  const FadedCone* faded = std::get_if<FadedCone>(&node.what);
+  if (faded && random.chance(0.1)) return {origin, glm::normalize(faded->tip - faded->base)};
+  return {origin, random.direction()};
+}
+
+Interval random_range(RandomSource& random) {
+  const double start = random.uniform(-2, 1);
+  return {start, start + std::pow(10.0, random.uniform(-2, 0.5))};
+}
+
+}  // namespace
+
+TEST_CASE("what a ray meets of cones bounds them along it, on every instruction set") {
+  const int sets = on_every_instruction_set([] {
+    Tally tally;
+    RandomSource random(61);
+    for (int i = 0; i < 600; ++i) {
+      const BlobTree tree = random_cones(random, 1 + i % 20);
+      const auto model = compile_model(tree);
+      for (int k = 0; k < 6; ++k) {
+        CAPTURE(i, k);
+        check_meeting(*model, random_ray(tree, random), random_range(random), random, tally);
+      }
+    }
+    CHECK(tally.unmet > tally.met);
+    CHECK(tally.steady > tally.met / 20);
+    CHECK(tally.bounded > tally.rays / 6);
+  });
+  CHECK(sets >= 2);
+}
+
+TEST_CASE("what a ray meets of trees of every kind of node bounds them along it") {
+  Tally tally;
+  for (int seed = 0; seed < 300; ++seed) {
+    const BlobTree tree = random_tree(static_cast<std::uint64_t>(seed), 1 + seed % 30);
+    const auto model = compile_model(tree);
+    RandomSource random(7000 + static_cast<std::uint64_t>(seed));
+    for (int k = 0; k < 12; ++k) {
+      CAPTURE(seed, k);
+      check_meeting(*model, random_ray(tree, random), random_range(random), random, tally);
+    }
+  }
+}
+
+TEST_CASE("what a ray meets of bent and ridged trees bounds them along it") {
+  for (int seed = 0; seed < 60; ++seed) {
+    TreeOptions options;
+    options.junction = seed % 3 ? JunctionKind::kRidge : JunctionKind::kSmooth;
+    options.bend_angle_degrees = seed % 2 ? 30 : 0;
+    const BlobTree tree = tree_from_skeleton(random_skeleton(static_cast<std::uint64_t>(seed), 2 + seed % 12), options);
+    const auto model = compile_model(tree);
+    const Box around = model->support;
+    RandomSource random(7500 + static_cast<std::uint64_t>(seed));
+    Tally tally;
+    for (int k = 0; k < 60; ++k) {
+      const Ray ray{random.in_box(around), random.direction()};
+      const double length = random.uniform(0, 0.3) * around.diagonal();
+      CAPTURE(seed, k);
+      check_meeting(*model, ray, {0, length}, random, tally);
+    }
+    CHECK(tally.unmet > tally.met);
+  }
+}
+
+TEST_CASE("cones at points of a line agree with their formulas to 1e-5, on every instruction set") {
+  on_every_instruction_set([] {
+    RandomSource random(63);
+    for (int i = 0; i < 2000; ++i) {
+      const BlobTree tree = random_cones(random, 1);
+      const Node& node = tree.nodes.front();
+      const Ray ray{random.in_box({Vec3(-1), Vec3(1)}), random.direction()};
+      const auto* faded = std::get_if<FadedCone>(&node.what);
+      const ConeRecord record = faded ? record_of(*faded, 1) : record_of(std::get<Cone>(node.what), 1);
+      const LineCone cone =
+          line_cone(record, faded ? kind_of_faded(record) : ConeKind::kPlain, ray.origin, ray.direction, 1);
+      std::array<float, kBatchGranule> t, f;
+      for (float& x : t) x = static_cast<float>(random.uniform(-1.5, 1.5));
+      sum_cones_along({&cone, 1}, t.data(), f.data());
+      for (std::size_t k = 0; k < t.size(); ++k) {
+        const Vec3 p = ray.at(t[k]);
+        const double expected = faded ? sample(*faded, p).value : sample(std::get<Cone>(node.what), p).value;
+        CAPTURE(i, k, t[k]);
+        REQUIRE(std::abs(f[k] - expected) <= 2e-5);
+      }
+    }
+  });
+}
