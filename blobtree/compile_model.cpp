@@ -112,8 +112,13 @@ class ModelCompiler {
     };
     std::size_t operators = 1, primitives = 0;
     for (const Node& node : tree_.nodes) {
-      primitives += is_primitive(node);
-      if (is_primitive(node) || std::holds_alternative<Sum>(node.what)) continue;
+      if (is_primitive(node)) {
+        ++primitives;
+        has_others_ =
+            has_others_ || !(std::holds_alternative<Cone>(node.what) || std::holds_alternative<FadedCone>(node.what));
+        continue;
+      }
+      if (std::holds_alternative<Sum>(node.what)) continue;
       operators +=
           1 + static_cast<std::size_t>(std::count_if(node.children.begin(), node.children.end(), stands_in_sum));
       if (std::holds_alternative<Negative>(node.what)) operators += node.children.size() - 1;
@@ -246,9 +251,10 @@ class ModelCompiler {
 
   void place_primitives(std::uint32_t first_waiting, std::uint32_t sum) {
     for (std::size_t i = first_waiting; i < waiting_.size(); ++i) {
-      const NodeId id = waiting_[i];
-      std::visit([&](const auto& what) { keep_if_other(what, id); }, tree_.nodes[id].what);
-      nodes_.push_back(id);
+      if (has_others_) {
+        std::visit([&](const auto& what) { keep_if_other(what, waiting_[i]); }, tree_.nodes[waiting_[i]].what);
+      }
+      nodes_.push_back(waiting_[i]);
       model_->sums.push_back(sum);
     }
     waiting_.resize(first_waiting);
@@ -310,6 +316,7 @@ class ModelCompiler {
   std::vector<std::uint32_t> needs_;
   std::vector<Box> supports_;
   bool has_negatives_ = false;
+  bool has_others_ = false;  // primitives that are no cones
   std::vector<Task> pending_;
   std::vector<NodeId> waiting_;          // primitives of the sums whose other operands find their places
   std::vector<NodeId> nested_, others_;  // room for `visit_sum`

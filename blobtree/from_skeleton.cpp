@@ -91,17 +91,17 @@ NodeId add_primitive(BlobTree& tree, const Internode& a, const Neighbourhood& ne
 // next, so that rows of any length become one at no cost.
 struct Summands {
   NodeId first = 0, last = 0;
-  std::size_t count = 0;
+  std::uint32_t count = 0;
 };
 
 class TreeBuilder {
  public:
   TreeBuilder(const Skeleton& skeleton, const TreeOptions& options)
       : internodes_(skeleton.internodes), options_(options), table_(child_table(skeleton)) {
-    subtrees_.resize(internodes_.size());
+    resize_large(subtrees_, internodes_.size());
     const std::size_t most = most_nodes();
     reserve_large(tree_.nodes, most);
-    next_.resize(most);
+    resize_large(next_, most);
   }
 
   BlobTree run() {

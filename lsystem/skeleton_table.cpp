@@ -246,7 +246,9 @@ class TableReader {
   /// The thickest child, the first of equals, continues its parent's order; the others begin the next.
   void set_orders() {
     std::vector<Internode>& internodes = skeleton_.internodes;
-    std::vector<InternodeId> thickest(internodes.size(), kNoInternode);
+    std::vector<InternodeId> thickest;
+    reserve_large(thickest, internodes.size());
+    thickest.resize(internodes.size(), kNoInternode);
     for (std::size_t i = 0; i < internodes.size(); ++i) {
       if (internodes[i].parent == kNoInternode) continue;
       InternodeId& best = thickest[static_cast<std::size_t>(internodes[i].parent)];
