@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -13,6 +14,7 @@
 #include <random>
 
 #include "base/error.h"
+#include "base/large_room.h"
 
 namespace barkridge {
 
@@ -171,6 +173,10 @@ std::string read_file(const std::string& path, std::size_t limit) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) throw IoError(path, reason(errno));
   std::string content;
+  struct stat status {};
+  if (::fstat(descriptor, &status) == 0 && status.st_size > 0) {
+    reserve_large(content, std::min(static_cast<std::size_t>(status.st_size), limit));
+  }
   std::array<char, 1 << 16> chunk{};
   int error = 0;
   while (content.size() <= limit) {

@@ -1,12 +1,14 @@
 #include "blobtree/box_hierarchy.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <utility>
+#include <limits>
 
-#include <tbb/parallel_sort.h>
-
+#include "base/large_room.h"
 #include "blobtree/morton.h"
 
 namespace barkridge {
@@ -24,47 +26,56 @@ float rounded_up(double x) {
   return f >= x ? f : std::nextafter(f, kInfinity);
 }
 
+struct Bounds {
+  std::array<float, 3> lo, hi;
+};
+constexpr Bounds kNothing{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+
 }  // namespace
 
-BoxHierarchy::BoxHierarchy(std::span<const Box> boxes) : numbers_(boxes.size()), places_(boxes.size()) {
+BoxHierarchy::BoxHierarchy(std::span<const Box> boxes) {
   if (boxes.empty()) return;
-  Box all;
-  for (const Box& box : boxes) all = unite(all, box);
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> curve(boxes.size());
-  for (std::uint32_t i = 0; i < curve.size(); ++i) curve[i] = {morton_code(boxes[i].center(), all), i};
-  tbb::parallel_sort(curve.begin(), curve.end());
-  for (std::uint32_t i = 0; i < curve.size(); ++i) {
-    numbers_[i] = curve[i].second;
-    places_[curve[i].second] = i;
-  }
-  const auto empty_group = [] {
-    Group group;
-    for (auto& row : group.lo) row.fill(kInfinity);
-    for (auto& row : group.hi) row.fill(-kInfinity);
-    return group;
-  };
-  levels_.emplace_back((boxes.size() + kWidth - 1) / kWidth, empty_group());
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    Group& group = levels_[0][i / kWidth];
+  numbers_ = order_along_curve(boxes.size(), [&](std::size_t i) { return boxes[i]; });
+  resize_large(places_, boxes.size());
+  for (std::uint32_t i = 0; i < numbers_.size(); ++i) places_[numbers_[i]] = i;
+  levels_.push_back(level_over(boxes.size(), [&](std::size_t i) {
     const Box& box = boxes[numbers_[i]];
-    for (int axis = 0; axis < 3; ++axis) {
-      if (box.empty()) continue;
-      group.lo[axis][i % kWidth] = rounded_down(box.lo[axis]);
-      group.hi[axis][i % kWidth] = rounded_up(box.hi[axis]);
+    Bounds bounds = kNothing;
+    for (int axis = 0; axis < 3 && !box.empty(); ++axis) {
+      bounds.lo[axis] = rounded_down(box.lo[axis]);
+      bounds.hi[axis] = rounded_up(box.hi[axis]);
     }
-  }
+    return bounds;
+  }));
   while (levels_.back().size() > 1) {
     const std::vector<Group>& below = levels_.back();
-    std::vector<Group> level((below.size() + kWidth - 1) / kWidth, empty_group());
-    for (std::size_t i = 0; i < below.size(); ++i) {
-      Group& group = level[i / kWidth];
+    levels_.push_back(level_over(below.size(), [&](std::size_t i) {
+      Bounds bounds;
       for (int axis = 0; axis < 3; ++axis) {
-        group.lo[axis][i % kWidth] = *std::min_element(below[i].lo[axis].begin(), below[i].lo[axis].end());
-        group.hi[axis][i % kWidth] = *std::max_element(below[i].hi[axis].begin(), below[i].hi[axis].end());
+        bounds.lo[axis] = *std::min_element(below[i].lo[axis].begin(), below[i].lo[axis].end());
+        bounds.hi[axis] = *std::max_element(below[i].hi[axis].begin(), below[i].hi[axis].end());
+      }
+      return bounds;
+    }));
+  }
+}
+
+template <typename BoundsOf>
+std::vector<BoxHierarchy::Group> BoxHierarchy::level_over(std::size_t count, const BoundsOf& bounds_of) {
+  std::vector<Group> level;
+  resize_large(level, (count + kWidth - 1) / kWidth);
+  constexpr std::size_t kTogether = 256;
+  using Range = tbb::blocked_range<std::size_t>;
+  tbb::parallel_for(Range(0, level.size(), kTogether), [&](const Range& range) {
+    for (std::size_t i = range.begin() * kWidth; i < range.end() * kWidth; ++i) {
+      const Bounds bounds = i < count ? bounds_of(i) : kNothing;
+      for (int axis = 0; axis < 3; ++axis) {
+        level[i / kWidth].lo[axis][i % kWidth] = bounds.lo[axis];
+        level[i / kWidth].hi[axis][i % kWidth] = bounds.hi[axis];
       }
     }
-    levels_.push_back(std::move(level));
-  }
+  });
+  return level;
 }
 
 unsigned BoxHierarchy::overlapping(const Group& group, const std::array<float, 3>& lo, const std::array<float, 3>& hi) {

@@ -37,6 +37,9 @@ class BoxHierarchy {
   struct alignas(32) Group {
     std::array<std::array<float, kWidth>, 3> lo, hi;
   };
+  /// Groups of eight of what `bounds_of(number)` gives.
+  template <typename BoundsOf>
+  static std::vector<Group> level_over(std::size_t count, const BoundsOf& bounds_of);
   static unsigned overlapping(const Group& group, const std::array<float, 3>& lo, const std::array<float, 3>& hi);
 
   std::vector<std::uint32_t> numbers_;      // of the boxes along the curve

@@ -1,6 +1,10 @@
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <span>
 
+#include "base/large_room.h"
 #include "blobtree/contact.h"
 #include "blobtree/field_model.h"
 #include "blobtree/morton.h"
@@ -17,7 +21,9 @@ bool is_primitive(const Node& node) { return node.children.empty(); }
 
 // How deep a stack a node's evaluation needs when its children go by falling need. [Sethi and Ullman 1970]
 std::vector<std::uint32_t> stack_needs(const BlobTree& tree) {
-  std::vector<std::uint32_t> needs(tree.nodes.size(), 1);
+  std::vector<std::uint32_t> needs;
+  reserve_large(needs, tree.nodes.size());
+  needs.resize(tree.nodes.size(), 1);
   std::vector<std::uint32_t> of_children;
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
     if (tree.nodes[i].children.empty()) continue;
@@ -57,23 +63,29 @@ class ModelCompiler {
     supports_ = supports_of(tree_);
     find_units();
     find_negatives();
+    make_room();
     visit(tree_.root, kNoOperator, 0);
     while (!pending_.empty()) {
       const Task task = pending_.back();
       pending_.pop_back();
-      task.primitives_of_sum ? write_primitives(task.parent) : visit(task.node, task.parent, task.rank);
+      task.first_waiting == kNoneWaiting ? visit(task.node, task.parent, task.rank)
+                                         : place_primitives(task.first_waiting, task.parent);
     }
+    write_primitives();
     finish();
     return model_;
   }
 
  private:
-  // Either a node to visit, or a sum whose other operands have been written; a stack of them stands in for recursion.
+  static constexpr std::uint32_t kNoneWaiting = ~std::uint32_t{0};
+
+  // Either a node to visit, or a sum whose other operands have their places, and the first of its primitives that wait
+  // for theirs; a stack of them stands in for recursion.
   struct Task {
     NodeId node = 0;
     std::uint32_t parent = kNoOperator;
     std::uint8_t rank = 0;
-    bool primitives_of_sum = false;
+    std::uint32_t first_waiting = kNoneWaiting;
   };
 
   void find_units() {
@@ -92,6 +104,30 @@ class ModelCompiler {
   // Whether any field can be negative: then a missing operand of a union or a contact, which is zero, counts.
   void find_negatives() {
     for (const Node& node : tree_.nodes) has_negatives_ = has_negatives_ || std::holds_alternative<Negative>(node.what);
+  }
+
+  // For every operator and a sum around every operand of it that is a primitive or a sum; and for all primitives.
+  void make_room() {
+    const auto stands_in_sum = [&](NodeId id) {
+      return is_primitive(tree_.nodes[id]) || std::holds_alternative<Sum>(tree_.nodes[id].what);
+    };
+    std::size_t operators = 1, primitives = 0;
+    for (const Node& node : tree_.nodes) {
+      if (is_primitive(node)) {
+        ++primitives;
+        has_others_ =
+            has_others_ || !(std::holds_alternative<Cone>(node.what) || std::holds_alternative<FadedCone>(node.what));
+        continue;
+      }
+      if (std::holds_alternative<Sum>(node.what)) continue;
+      operators +=
+          1 + static_cast<std::size_t>(std::count_if(node.children.begin(), node.children.end(), stands_in_sum));
+      if (std::holds_alternative<Negative>(node.what)) operators += node.children.size() - 1;
+      if (std::holds_alternative<Difference>(node.what)) ++operators;
+    }
+    reserve_large(model_->operators, operators);
+    reserve_large(model_->sums, primitives);
+    reserve_large(nodes_, primitives);
   }
 
   std::uint32_t add_operator(Op op, std::size_t operand_count, std::size_t index, std::uint32_t parent,
@@ -124,41 +160,42 @@ class ModelCompiler {
 
   // Nested sums are one. Its primitives come last, in a row.
   void visit_sum(NodeId id, std::uint32_t sum) {
-    std::vector<NodeId> nested{id}, others;
-    std::vector<NodeId>& primitives = waiting_.emplace_back();
-    while (!nested.empty()) {
-      const NodeId next = nested.back();
-      nested.pop_back();
+    const std::size_t first_waiting = waiting_.size();
+    nested_.assign(1, id);
+    others_.clear();
+    while (!nested_.empty()) {
+      const NodeId next = nested_.back();
+      nested_.pop_back();
       const Node& node = tree_.nodes[next];
       if (is_primitive(node)) {
-        primitives.push_back(next);
+        waiting_.push_back(next);
       } else if (std::holds_alternative<Sum>(node.what)) {
-        nested.insert(nested.end(), node.children.rbegin(), node.children.rend());
+        nested_.insert(nested_.end(), node.children.rbegin(), node.children.rend());
       } else {
-        others.push_back(next);
+        others_.push_back(next);
       }
     }
-    sort_in_space(primitives);
-    pending_.push_back({0, sum, 0, true});
-    visit_later(std::move(others), sum);
+    sort_in_space(std::span(waiting_).subspan(first_waiting));
+    pending_.push_back({0, sum, 0, static_cast<std::uint32_t>(first_waiting)});
+    visit_later(others_, sum);
   }
 
-  void sort_in_space(std::vector<NodeId>& primitives) const {
+  void sort_in_space(std::span<NodeId> primitives) const {
     constexpr std::size_t kFew = 8;
     if (primitives.size() <= kFew) return;
-    std::vector<std::pair<std::uint64_t, NodeId>> order;
-    order.reserve(primitives.size());
-    Box box;
-    for (const NodeId id : primitives) box = unite(box, supports_[id]);
-    for (const NodeId id : primitives) order.emplace_back(morton_code(supports_[id].center(), box), id);
-    std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (std::size_t i = 0; i < order.size(); ++i) primitives[i] = order[i].second;
+    const std::vector<NodeId> unsorted(primitives.begin(), primitives.end());
+    const std::vector<std::uint32_t> order =
+        order_along_curve(unsorted.size(), [&](std::size_t i) { return supports_[unsorted[i]]; });
+    for (std::size_t i = 0; i < order.size(); ++i) primitives[i] = unsorted[order[i]];
   }
 
   // Pushed last is visited first: the child of the greatest need.
-  void visit_later(std::vector<NodeId> children, std::uint32_t parent, std::uint8_t rank = 0) {
-    std::stable_sort(children.begin(), children.end(), [&](NodeId a, NodeId b) { return needs_[a] < needs_[b]; });
+  void visit_later(std::span<const NodeId> children, std::uint32_t parent, std::uint8_t rank = 0) {
+    const auto count = static_cast<std::ptrdiff_t>(children.size());
     for (const NodeId child : children) pending_.push_back({child, parent, rank});
+    if (count < 2) return;
+    std::stable_sort(pending_.end() - count, pending_.end(),
+                     [&](const Task& a, const Task& b) { return needs_[a.node] < needs_[b.node]; });
   }
 
   void visit_commutative(Op op, NodeId id, std::uint32_t parent, std::uint8_t rank, std::size_t index = 0) {
@@ -194,7 +231,7 @@ class ModelCompiler {
     const std::vector<NodeId>& children = tree_.nodes[id].children;
     const std::uint32_t difference = add_operator(Op::kDifference, 2, 0, parent, rank);
     const std::uint32_t taken = add_operator(Op::kUnion, children.size() - 1, 0, difference, 1);
-    visit_later({children.begin() + 1, children.end()}, taken);
+    visit_later(std::span(children).subspan(1), taken);
     pending_.push_back({children[0], difference, 0});
   }
 
@@ -214,50 +251,61 @@ class ModelCompiler {
   template <typename What>
   void visit_operator(const What&, NodeId, std::uint32_t, std::uint8_t) {}  // sums and primitives: see `visit`
 
-  void write_primitives(std::uint32_t sum) {
-    for (const NodeId id : waiting_.back()) {
-      std::visit([&](const auto& what) { write_primitive(what, id); }, tree_.nodes[id].what);
+  void place_primitives(std::uint32_t first_waiting, std::uint32_t sum) {
+    for (std::size_t i = first_waiting; i < waiting_.size(); ++i) {
+      if (has_others_) {
+        std::visit([&](const auto& what) { keep_if_other(what, waiting_[i]); }, tree_.nodes[waiting_[i]].what);
+      }
+      nodes_.push_back(waiting_[i]);
       model_->sums.push_back(sum);
-      boxes_.push_back(box_in_world(*model_, sum, [&](const Warp::Framed* frame) {
-        return frame ? support_in_frame(tree_.nodes[id], supports_[id], *frame) : supports_[id];
-      }));
     }
-    waiting_.pop_back();
+    waiting_.resize(first_waiting);
   }
 
-  void write_primitive(const Cone& cone, NodeId) { write_cone(record_of(cone, model_->units.scale), ConeKind::kPlain); }
-  void write_primitive(const FadedCone& cone, NodeId) {
-    const ConeRecord record = record_of(cone, model_->units.scale);
-    write_cone(record, kind_of_faded(record));
-  }
   template <typename Shape>
-  void write_primitive(const Shape& shape, NodeId id) {
+  void keep_if_other(const Shape& shape, NodeId id) {
     if constexpr (std::is_constructible_v<std::variant<Disc, Ring, Polygon>, Shape>) {
-      model_->others.push_back({static_cast<std::uint32_t>(model_->cones.size()), shape, supports_[id]});
-      write_cone({}, ConeKind::kPlain);
+      model_->others.push_back({static_cast<std::uint32_t>(nodes_.size()), shape, supports_[id]});
     }
   }
-  void write_cone(const ConeRecord& record, ConeKind kind) {
-    model_->cones.push_back(record);
-    model_->kinds.push_back(kind);
+
+  // All have their places: what stands there depends on nothing else.
+  void write_primitives() {
+    resize_large(model_->cones, nodes_.size());
+    resize_large(model_->kinds, nodes_.size());
+    resize_large(boxes_, nodes_.size());
+    tbb::parallel_for(std::size_t{0}, nodes_.size(), [&](std::size_t i) {
+      const NodeId id = nodes_[i];
+      const Node& node = tree_.nodes[id];
+      if (const Cone* cone = std::get_if<Cone>(&node.what)) {
+        model_->cones[i] = record_of(*cone, model_->units.scale);
+      } else if (const FadedCone* faded = std::get_if<FadedCone>(&node.what)) {
+        model_->cones[i] = record_of(*faded, model_->units.scale);
+        model_->kinds[i] = kind_of_faded(model_->cones[i]);
+      }
+      boxes_[i] = box_in_world(*model_, model_->sums[i], [&](const Warp::Framed* frame) {
+        return frame ? support_in_frame(node, supports_[id], *frame) : supports_[id];
+      });
+    });
+  }
+
+  std::uint32_t common_ancestor(std::uint32_t a, std::uint32_t b) const {
+    const std::vector<FieldOperator>& operators = model_->operators;
+    while (a != b) {
+      std::uint32_t& deeper = operators[a].depth < operators[b].depth ? b : a;
+      deeper = operators[deeper].parent;
+    }
+    return a;
   }
 
   void finish() {
     FieldModel& model = *model_;
     model.supports = BoxHierarchy(boxes_);
     std::vector<std::uint32_t> ancestors;
-    ancestors.reserve(model.sums.size());
-    for (std::size_t i = 0; i + 1 < model.sums.size(); ++i) {
-      std::uint32_t a = model.sums[i], b = model.sums[i + 1];
-      while (a != b) {
-        std::uint32_t& deeper = model.operators[a].depth < model.operators[b].depth ? b : a;
-        deeper = model.operators[deeper].parent;
-      }
-      ancestors.push_back(a);
-    }
+    resize_large(ancestors, std::max<std::size_t>(model.sums.size(), 1) - 1);
+    tbb::parallel_for(std::size_t{0}, ancestors.size(),
+                      [&](std::size_t i) { ancestors[i] = common_ancestor(model.sums[i], model.sums[i + 1]); });
     model.ancestors.build(std::move(ancestors), model.operators);
-    model.cones.shrink_to_fit();
-    model.kinds.shrink_to_fit();
     model.sums.shrink_to_fit();
     model.operators.shrink_to_fit();
     model.warps.shrink_to_fit();
@@ -273,9 +321,12 @@ class ModelCompiler {
   std::vector<std::uint32_t> needs_;
   std::vector<Box> supports_;
   bool has_negatives_ = false;
+  bool has_others_ = false;  // primitives that are no cones
   std::vector<Task> pending_;
-  std::vector<std::vector<NodeId>> waiting_;  // primitives of the sums whose other operands are being written
-  std::vector<Box> boxes_;
+  std::vector<NodeId> waiting_;          // primitives of the sums whose other operands find their places
+  std::vector<NodeId> nested_, others_;  // room for `visit_sum`
+  std::vector<NodeId> nodes_;            // by primitive
+  std::vector<Box> boxes_;               // by primitive
   std::shared_ptr<FieldModel> model_;
 };
 

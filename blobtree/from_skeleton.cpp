@@ -6,9 +6,11 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <span>
 #include <tuple>
 
 #include "base/error.h"
+#include "base/large_room.h"
 
 namespace barkridge {
 
@@ -85,28 +87,127 @@ NodeId add_primitive(BlobTree& tree, const Internode& a, const Neighbourhood& ne
                                             : add_bent(tree, faded_cone(a, near), bend);
 }
 
-// Nodes that are to be summed: a subtree before anything but a sum has needed it as one node.
-using Summands = std::vector<NodeId>;
+// Nodes that are to be summed: a subtree before anything but a sum has needed it as one node. Each is linked to the
+// next, so that rows of any length become one at no cost.
+struct Summands {
+  NodeId first = 0, last = 0;
+  std::uint32_t count = 0;
+};
 
-NodeId as_node(BlobTree& tree, Summands summands) {
-  if (summands.size() == 1) return summands.front();
-  return tree.add(Sum{}, std::move(summands));
-}
+class TreeBuilder {
+ public:
+  TreeBuilder(const Skeleton& skeleton, const TreeOptions& options)
+      : internodes_(skeleton.internodes), options_(options), table_(child_table(skeleton)) {
+    resize_large(subtrees_, internodes_.size());
+    const std::size_t most = most_nodes();
+    reserve_large(tree_.nodes, most);
+    resize_large(next_, most);
+  }
 
-Summands join(BlobTree& tree, std::vector<Summands> subtrees, const TreeOptions& options) {
-  if (subtrees.size() == 1) return std::move(subtrees.front());
-  if (options.junction == JunctionKind::kSmooth) {
+  BlobTree run() {
+    // Children before parents: the summands of a subtree move up the axis and become a node where branches touch.
+    for (std::size_t i = internodes_.size(); i-- > 0;) {
+      Summands subtree = join(children_of(i));
+      append(subtree, single(add_primitive(tree_, internodes_[i], neighbourhood_of(i), options_)));
+      subtrees_[i] = subtree;
+    }
+    // Roots that start at one point are children of the ground there.
+    std::map<std::tuple<double, double, double>, std::vector<InternodeId>> plants;
+    for (const InternodeId root : children_of(internodes_.size())) {
+      const Vec3& base = internodes_[static_cast<std::size_t>(root)].base;
+      plants[{base.x, base.y, base.z}].push_back(root);
+    }
+    std::vector<NodeId> apart;
+    for (const auto& [base, roots] : plants) apart.push_back(as_node(join(roots)));
+    if (apart.size() > 1)
+      tree_.add(Union{}, std::move(apart));
+    else if (apart.size() == 1)
+      tree_.root = apart.front();
+    return std::move(tree_);
+  }
+
+ private:
+  std::span<const InternodeId> children_of(std::size_t i) const {
+    return std::span(table_.children).subspan(table_.first[i], table_.first[i + 1] - table_.first[i]);
+  }
+
+  // A primitive and perhaps a bend for every internode; a contact where branches touch, and a sum for each of several
+  // internodes; what joins the roots.
+  std::size_t most_nodes() const {
+    std::size_t most = internodes_.size() * (options_.bend_angle_degrees > 0 ? 2 : 1);
+    most += 3 * children_of(internodes_.size()).size() + 1;
+    if (options_.junction == JunctionKind::kSmooth) return most;
+    for (std::size_t i = 0; i < internodes_.size(); ++i) {
+      const auto children = children_of(i);
+      if (children.size() < 2) continue;
+      most += 1 + static_cast<std::size_t>(std::count_if(children.begin(), children.end(), [&](InternodeId child) {
+                return !children_of(static_cast<std::size_t>(child)).empty();
+              }));
+    }
+    return most;
+  }
+
+  Neighbourhood neighbourhood_of(std::size_t i) const {
+    Neighbourhood near;
+    const auto children = children_of(i);
+    near.child_count = children.size();
+    for (const InternodeId child : children) {
+      near.thickest_child = std::max(near.thickest_child, internodes_[static_cast<std::size_t>(child)].base_radius);
+    }
+    if (const InternodeId parent = internodes_[i].parent; parent != kNoInternode) {
+      near.parent = &internodes_[static_cast<std::size_t>(parent)];
+      near.shares_base = children_of(static_cast<std::size_t>(parent)).size() > 1;
+    }
+    return near;
+  }
+
+  static Summands single(NodeId node) { return {node, node, 1}; }
+
+  void append(Summands& row, const Summands& more) {
+    if (row.count == 0) {
+      row = more;
+    } else {
+      next_[row.last] = more.first;
+      row = {row.first, more.last, row.count + more.count};
+    }
+  }
+
+  NodeId as_node(const Summands& summands) {
+    if (summands.count == 1) return summands.first;
+    std::vector<NodeId> nodes(summands.count);
+    NodeId next = summands.first;
+    for (NodeId& node : nodes) {
+      node = next;
+      next = next_[next];
+    }
+    return tree_.add(Sum{}, std::move(nodes));
+  }
+
+  // What branches that start at one point are together.
+  Summands join(std::span<const InternodeId> branches) {
+    const auto subtree_of = [&](InternodeId branch) { return subtrees_[static_cast<std::size_t>(branch)]; };
+    if (branches.size() > 1 && options_.junction == JunctionKind::kRidge) {
+      std::vector<NodeId> nodes;
+      nodes.reserve(branches.size());
+      for (const InternodeId branch : branches) nodes.push_back(as_node(subtree_of(branch)));
+      return single(tree_.add(Contact{options_.contact}, std::move(nodes)));
+    }
     Summands all;
-    for (Summands& subtree : subtrees) {
-      if (subtree.size() > all.size()) all.swap(subtree);
-      all.insert(all.end(), subtree.begin(), subtree.end());
+    for (const InternodeId branch : branches) {
+      Summands subtree = subtree_of(branch);
+      if (subtree.count > all.count) std::swap(all, subtree);
+      if (subtree.count > 0) append(all, subtree);
     }
     return all;
   }
-  std::vector<NodeId> branches;
-  for (Summands& subtree : subtrees) branches.push_back(as_node(tree, std::move(subtree)));
-  return {tree.add(Contact{options.contact}, std::move(branches))};
-}
+
+  const std::vector<Internode>& internodes_;
+  const TreeOptions& options_;
+  const ChildTable table_;
+  BlobTree tree_;
+  std::vector<NodeId> next_;        // by node: what it is followed by among summands
+  std::vector<Summands> subtrees_;  // by internode
+};
 
 }  // namespace
 
@@ -116,43 +217,7 @@ BlobTree tree_from_skeleton(const Skeleton& skeleton, const TreeOptions& options
     throw InputError(
         fmt::format("bend angle {} is outside its range: 0 <= angle_degrees < 180", options.bend_angle_degrees));
   }
-  const std::vector<Internode>& internodes = skeleton.internodes;
-  const ChildTable table = child_table(skeleton);
-  const auto children_of = [&](std::size_t i) {
-    return std::span(table.children).subspan(table.first[i], table.first[i + 1] - table.first[i]);
-  };
-  BlobTree tree;
-  std::vector<Summands> subtrees(internodes.size());
-  // Children before parents: the summands of a subtree move up the axis and become a node where branches touch.
-  for (std::size_t i = internodes.size(); i-- > 0;) {
-    const Internode& a = internodes[i];
-    Neighbourhood near;
-    std::vector<Summands> carried;
-    for (const InternodeId child : children_of(i)) {
-      near.thickest_child = std::max(near.thickest_child, internodes[static_cast<std::size_t>(child)].base_radius);
-      carried.push_back(std::move(subtrees[static_cast<std::size_t>(child)]));
-    }
-    near.child_count = carried.size();
-    if (a.parent != kNoInternode) {
-      near.parent = &internodes[static_cast<std::size_t>(a.parent)];
-      near.shares_base = children_of(static_cast<std::size_t>(a.parent)).size() > 1;
-    }
-    if (!carried.empty()) subtrees[i] = join(tree, std::move(carried), options);
-    subtrees[i].push_back(add_primitive(tree, a, near, options));
-  }
-  // Roots that start at one point are children of the ground there.
-  std::map<std::tuple<double, double, double>, std::vector<Summands>> plants;
-  for (const InternodeId root : children_of(internodes.size())) {
-    const Vec3& base = internodes[static_cast<std::size_t>(root)].base;
-    plants[{base.x, base.y, base.z}].push_back(std::move(subtrees[static_cast<std::size_t>(root)]));
-  }
-  std::vector<NodeId> apart;
-  for (auto& [base, roots] : plants) apart.push_back(as_node(tree, join(tree, std::move(roots), options)));
-  if (apart.size() > 1)
-    tree.add(Union{}, std::move(apart));
-  else if (apart.size() == 1)
-    tree.root = apart.front();
-  return tree;
+  return TreeBuilder(skeleton, options).run();
 }
 
 }  // namespace barkridge

@@ -1,9 +1,17 @@
 #pragma once
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "base/geometry.h"
+#include "base/large_room.h"
 
 namespace barkridge {
 
@@ -24,6 +32,34 @@ inline std::uint64_t morton_code(const Vec3& p, const Box& box) {
     code |= place << axis;
   }
   return code;
+}
+
+/// The numbers below `count` of boxes that `box_of(number)` gives, in the order of their centres along the curve
+/// through the box around them all; of equals, the lower number first.
+template <typename BoxOf>
+std::vector<std::uint32_t> order_along_curve(std::size_t count, const BoxOf& box_of) {
+  using Range = tbb::blocked_range<std::size_t>;
+  constexpr std::size_t kTogether = 4096;
+  const Range all(0, count, kTogether);
+  const Box around = tbb::parallel_reduce(
+      all, Box(),
+      [&](const Range& range, Box box) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) box = unite(box, box_of(i));
+        return box;
+      },
+      [](const Box& a, const Box& b) { return unite(a, b); });
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> curve;
+  resize_large(curve, count);
+  tbb::parallel_for(all, [&](const Range& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      curve[i] = {morton_code(box_of(i).center(), around), static_cast<std::uint32_t>(i)};
+    }
+  });
+  tbb::parallel_sort(curve.begin(), curve.end());
+  std::vector<std::uint32_t> order;
+  resize_large(order, count);
+  for (std::size_t i = 0; i < count; ++i) order[i] = curve[i].second;
+  return order;
 }
 
 }  // namespace barkridge

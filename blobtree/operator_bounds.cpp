@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/large_room.h"
 #include "blobtree/contact.h"
 #include "blobtree/primitive_bounds.h"
 #include "blobtree/warp.h"
@@ -179,7 +180,8 @@ Box support_of(const Node& node, std::span<const Box> supports) {
 }
 
 std::vector<Box> supports_of(const BlobTree& tree) {
-  std::vector<Box> supports(tree.nodes.size());
+  std::vector<Box> supports;
+  resize_large(supports, tree.nodes.size());
   tbb::parallel_for(std::size_t{0}, tree.nodes.size(), [&](std::size_t i) {
     if (tree.nodes[i].children.empty()) supports[i] = support_of(tree.nodes[i], supports);
   });

@@ -3,6 +3,7 @@
 #include <glm/matrix.hpp>
 #include <limits>
 
+#include "base/large_room.h"
 #include "blobtree/tree.h"
 
 namespace barkridge {
@@ -42,7 +43,8 @@ struct PrimitiveRadius {
 
 double thinnest_radius(const BlobTree& tree) {
   // From the root down, for parents come after their children; 0 marks what the root does not reach.
-  std::vector<double> scale(tree.nodes.size(), 0.0);
+  std::vector<double> scale;
+  resize_large(scale, tree.nodes.size());
   if (!scale.empty()) scale[tree.root] = 1;
   double thinnest = std::numeric_limits<double>::infinity();
   for (std::size_t i = tree.nodes.size(); i-- > 0;) {

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "base/large_room.h"
+
 namespace barkridge {
 
 ChildTable child_table(const Skeleton& skeleton) {
@@ -10,8 +12,8 @@ ChildTable child_table(const Skeleton& skeleton) {
     return internode.parent == kNoInternode ? count : static_cast<std::size_t>(internode.parent);
   };
   ChildTable table;
-  table.first.resize(count + 2);
-  table.children.resize(count);
+  resize_large(table.first, count + 2);
+  resize_large(table.children, count);
   for (const Internode& internode : skeleton.internodes) ++table.first[row(internode) + 1];
   for (std::size_t i = 0; i <= count; ++i) table.first[i + 1] += table.first[i];
   std::vector<std::uint32_t> next = table.first;
@@ -22,7 +24,8 @@ ChildTable child_table(const Skeleton& skeleton) {
 }
 
 Skeleton without_zero_lengths(Skeleton skeleton) {
-  std::vector<InternodeId> new_ids(skeleton.internodes.size());
+  std::vector<InternodeId> new_ids;
+  resize_large(new_ids, skeleton.internodes.size());
   const auto moved = [&](InternodeId id) { return id == kNoInternode ? id : new_ids[static_cast<std::size_t>(id)]; };
   std::size_t kept = 0;
   for (std::size_t i = 0; i < skeleton.internodes.size(); ++i) {

@@ -1,15 +1,20 @@
 #include <fmt/format.h>
+#include <tbb/parallel_for_each.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <exception>
 #include <iterator>
 #include <limits>
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
 #include "base/error.h"
+#include "base/large_room.h"
 #include "lsystem/characters.h"
 #include "lsystem/skeleton.h"
 
@@ -22,43 +27,131 @@ constexpr std::size_t kFieldCount = 10;
 constexpr std::array<const char*, kFieldCount> kFieldNames{"id", "parent", "x0", "y0", "z0",
                                                            "x1", "y1",     "z1", "r0", "r1"};
 
+// Whole lines of a table. Stretches are read at the same time.
+struct Stretch {
+  std::string_view text;
+  std::size_t first = 0;  // the first of its internodes
+  std::size_t count = 0;  // how many there are, up to the first mistake
+  std::exception_ptr mistake;
+};
+
+// What a line calls its internode, and the one that carries it.
+struct Names {
+  std::int64_t id, parent;
+};
+
+// Internodes by what the table calls them.
+class IdTable {
+ public:
+  /// False if the id has been given already.
+  bool add(std::int64_t id, InternodeId internode) {
+    // Most tables count from 0: then an id needs no place in memory.
+    if (others_.empty() && id == count_) {
+      ++count_;
+      return true;
+    }
+    return !(0 <= id && id < count_) && others_.emplace(id, internode).second;
+  }
+  InternodeId find(std::int64_t id) const {
+    if (0 <= id && id < count_) return static_cast<InternodeId>(id);
+    const auto found = others_.find(id);
+    return found == others_.end() ? kNoInternode : found->second;
+  }
+
+ private:
+  std::int64_t count_ = 0;  // ids below are the numbers of their internodes
+  std::unordered_map<std::int64_t, InternodeId> others_;
+};
+
 class TableReader {
  public:
   TableReader(std::string_view text, const std::string& file) : text_(text), file_(file) {}
 
   Skeleton read() {
     read_header();
-    while (line_start_ < text_.size()) {
-      const std::string_view line = next_line();
-      const std::string_view content = trim(line);
-      if (!content.empty() && content[0] != '#') read_internode(line);
+    std::vector<Stretch> stretches = cut();
+    tbb::parallel_for_each(stretches, [](Stretch& stretch) {
+      for_each_row(stretch.text, [&](std::string_view) { return ++stretch.count > 0; });
+    });
+    std::size_t count = 0;
+    for (Stretch& stretch : stretches) {
+      stretch.first = count;
+      count += stretch.count;
+    }
+    if (count > static_cast<std::size_t>(std::numeric_limits<InternodeId>::max())) {
+      throw LimitError(fmt::format("{}: a skeleton has at most 2147483647 internodes", file_));
+    }
+    resize_large(skeleton_.internodes, count);
+    resize_large(names_, count);
+    tbb::parallel_for_each(stretches, [&](Stretch& stretch) { read_rows(stretch); });
+    for (const Stretch& stretch : stretches) {
+      link(stretch);
+      if (stretch.mistake) std::rethrow_exception(stretch.mistake);
     }
     set_orders();
     return without_zero_lengths(std::move(skeleton_));
   }
 
  private:
+  using Fields = std::array<std::string_view, kFieldCount>;
+
   [[noreturn]] void fail(const char* where, const std::string& message) const {
     throw InputError(locate(text_, static_cast<std::size_t>(where - text_.data()), file_), message);
   }
 
-  std::string_view next_line() {
-    const std::size_t end = std::min(text_.find('\n', line_start_), text_.size());
-    const std::string_view line = text_.substr(line_start_, end - line_start_);
-    line_start_ = end + 1;
-    return line;
-  }
-
   void read_header() {
-    const std::string_view line = next_line();
+    const std::string_view line = text_.substr(0, text_.find('\n'));
     if (trim(line) == kHeader) return;
     const bool other_version = line.starts_with(kHeader.substr(0, kHeader.size() - 1));
     fail(line.data(), other_version ? "this version of the skeleton table is not known; only version 1 is"
                                     : fmt::format("expected `{}` in the first line", kHeader));
   }
 
-  void read_internode(std::string_view line) {
-    std::array<std::string_view, kFieldCount> fields;
+  // The lines after the header.
+  std::vector<Stretch> cut() const {
+    constexpr std::size_t kBytes = std::size_t{1} << 17;
+    std::vector<Stretch> stretches;
+    for (std::size_t start = after_line(0); start < text_.size();) {
+      const std::size_t end = after_line(start + kBytes);
+      stretches.push_back({text_.substr(start, end - start), 0, 0, nullptr});
+      start = end;
+    }
+    return stretches;
+  }
+
+  // Where the line after the one of a place begins.
+  std::size_t after_line(std::size_t place) const {
+    const std::size_t newline = text_.find('\n', place);
+    return newline == std::string_view::npos ? text_.size() : newline + 1;
+  }
+
+  // Calls `work(line)` for every line that is an internode's, until it returns false.
+  template <typename Work>
+  static void for_each_row(std::string_view lines, Work work) {
+    while (!lines.empty()) {
+      const std::size_t end = std::min(lines.find('\n'), lines.size());
+      const std::string_view line = lines.substr(0, end);
+      const std::string_view content = trim(line);
+      if (!content.empty() && content[0] != '#' && !work(line)) return;
+      lines.remove_prefix(std::min(end + 1, lines.size()));
+    }
+  }
+
+  void read_rows(Stretch& stretch) {
+    std::size_t row = stretch.first;
+    try {
+      for_each_row(stretch.text, [&](std::string_view line) {
+        read_row(split(line), row);
+        return ++row > 0;
+      });
+    } catch (const InputError&) {
+      stretch.mistake = std::current_exception();
+      stretch.count = row - stretch.first;
+    }
+  }
+
+  Fields split(std::string_view line) const {
+    Fields fields;
     std::size_t count = 0;
     for (std::size_t i = 0; i < line.size();) {
       std::size_t end = i;
@@ -73,6 +166,16 @@ class TableReader {
       fail(line.data() + trim_end(line),
            fmt::format("expected {} fields, `{}` and what follows are missing", kFieldCount, kFieldNames[count]));
     }
+    return fields;
+  }
+
+  static std::size_t trim_end(std::string_view line) {
+    std::size_t end = line.size();
+    while (end > 0 && is_space(line[end - 1])) --end;
+    return end;
+  }
+
+  void read_row(const Fields& fields, std::size_t row) {
     std::array<double, kFieldCount> numbers{};
     for (std::size_t i = 2; i < kFieldCount; ++i) numbers[i] = number(fields[i], kFieldNames[i]);
     for (std::size_t i = 8; i < kFieldCount; ++i) {
@@ -80,38 +183,43 @@ class TableReader {
         fail(fields[i].data(), numbers[i] == 0 ? "the radius is zero" : "the radius is negative");
       }
     }
-    Internode internode;
+    Internode& internode = skeleton_.internodes[row];
     internode.base = {numbers[2], numbers[3], numbers[4]};
     internode.tip = {numbers[5], numbers[6], numbers[7]};
     internode.base_radius = numbers[8];
     internode.tip_radius = numbers[9];
-    add(internode, fields[0], fields[1]);
+    Names& names = names_[row];
+    names.id = integer(fields[0], "id");
+    if (names.id < 0) fail(fields[0].data(), "an internode's id must not be negative");
+    names.parent = integer(fields[1], "parent");
   }
 
-  void add(Internode internode, std::string_view id_field, std::string_view parent_field) {
-    const std::int64_t id = integer(id_field, "id");
-    if (id < 0) fail(id_field.data(), "an internode's id must not be negative");
-    const std::int64_t parent = integer(parent_field, "parent");
-    if (parent != kNoInternode) {
-      const auto found = ids_.find(parent);
-      if (found == ids_.end()) {
-        fail(parent_field.data(),
-             fmt::format("the parent {} has not been listed; parents come before children", parent));
+  // Finds the parents of a stretch's internodes.
+  void link(const Stretch& stretch) {
+    for (std::size_t row = stretch.first; row < stretch.first + stretch.count; ++row) {
+      const auto [id, parent] = names_[row];
+      if (parent != kNoInternode) {
+        const InternodeId found = ids_.find(parent);
+        if (found == kNoInternode) {
+          fail(fields_of(stretch, row)[1].data(),
+               fmt::format("the parent {} has not been listed; parents come before children", parent));
+        }
+        skeleton_.internodes[row].parent = found;
       }
-      internode.parent = found->second;
+      if (!ids_.add(id, static_cast<InternodeId>(row))) {
+        fail(fields_of(stretch, row)[0].data(), fmt::format("the id {} is used twice", id));
+      }
     }
-    if (skeleton_.internodes.size() >= static_cast<std::size_t>(std::numeric_limits<InternodeId>::max())) {
-      throw LimitError(fmt::format("{}: a skeleton has at most 2147483647 internodes", file_));
-    }
-    const auto index = static_cast<InternodeId>(skeleton_.internodes.size());
-    if (!ids_.emplace(id, index).second) fail(id_field.data(), fmt::format("the id {} is used twice", id));
-    skeleton_.internodes.push_back(internode);
   }
 
-  static std::size_t trim_end(std::string_view line) {
-    std::size_t end = line.size();
-    while (end > 0 && is_space(line[end - 1])) --end;
-    return end;
+  Fields fields_of(const Stretch& stretch, std::size_t row) const {
+    std::string_view found;
+    std::size_t before = row - stretch.first;
+    for_each_row(stretch.text, [&](std::string_view line) {
+      found = line;
+      return before-- > 0;
+    });
+    return split(found);
   }
 
   double number(std::string_view field, const char* name) const {
@@ -138,7 +246,9 @@ class TableReader {
   /// The thickest child, the first of equals, continues its parent's order; the others begin the next.
   void set_orders() {
     std::vector<Internode>& internodes = skeleton_.internodes;
-    std::vector<InternodeId> thickest(internodes.size(), kNoInternode);
+    std::vector<InternodeId> thickest;
+    reserve_large(thickest, internodes.size());
+    thickest.resize(internodes.size(), kNoInternode);
     for (std::size_t i = 0; i < internodes.size(); ++i) {
       if (internodes[i].parent == kNoInternode) continue;
       InternodeId& best = thickest[static_cast<std::size_t>(internodes[i].parent)];
@@ -155,9 +265,9 @@ class TableReader {
 
   std::string_view text_;
   const std::string& file_;
-  std::size_t line_start_ = 0;
-  std::unordered_map<std::int64_t, InternodeId> ids_;
   Skeleton skeleton_;
+  std::vector<Names> names_;  // by internode
+  IdTable ids_;
 };
 
 }  // namespace

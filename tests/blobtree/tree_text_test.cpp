@@ -83,3 +83,24 @@ TEST_CASE("trees whose nodes do not form one are refused") {
   CHECK_THROWS_AS(compile(loop), InputError);
   CHECK_THROWS_AS(reference_field(loop), InputError);
 }
+
+TEST_CASE("of several mistakes in a large tree the first node's is reported") {
+  const auto mistake = [](const BlobTree& tree) -> std::string {
+    try {
+      check(tree);
+    } catch (const InputError& error) {
+      return error.message();
+    }
+    return "none";
+  };
+  BlobTree tree;
+  for (NodeId i = 0; i < 10000; ++i) i % 2 == 0 ? tree.add(Cone{}) : tree.add(Sum{}, {i - 1});
+  CHECK(mistake(tree) == "none");
+  tree.nodes[9000].what = Cone{Vec3(0), Vec3(0, 1, 0), -1, 1};
+  tree.nodes[8000].what = Ricci{0.5};
+  CHECK(mistake(tree) == "ricci: exponent must be at least 1");
+  tree.nodes[7001].children = {6998};
+  CHECK(mistake(tree) == "node 7001: child 6998 has another parent");
+  tree.nodes[2].what = Cone{Vec3(0), Vec3(0, 1, 0), 0, 1};
+  CHECK(mistake(tree) == "cone: radii must be above zero");
+}

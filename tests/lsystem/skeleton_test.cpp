@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include <map>
 #include <random>
 
 #include "base/error.h"
@@ -98,6 +99,64 @@ TEST_CASE("mistakes in tables are found where they are") {
   CHECK(mistake(kHeader + "0 0 0 0 0 0 1 0 1 1\n") ==
         "2:3: the parent 0 has not been listed; parents come before children");
   CHECK(mistake(kHeader + "0 -1 0 0 0 0 1 0 1 1\n0 -1 0 0 0 0 1 0 1 1\n") == "3:1: the id 0 is used twice");
+}
+
+namespace {
+
+/// A chain of internodes, long enough to be read in several parts at once; `id(i)` is what the table calls the i-th.
+template <typename Id>
+std::vector<std::string> long_table(Id id) {
+  std::vector<std::string> lines;
+  for (int i = 0; i < 20000; ++i) {
+    const std::string parent = i == 0 ? "-1" : std::to_string(id(i - 1));
+    const std::string base = std::to_string(i), tip = std::to_string(i + 1);
+    lines.push_back(std::to_string(id(i)) + ' ' + parent + " 0 " + base + " 0 0 " + tip + " 0 1 1");
+  }
+  return lines;
+}
+const auto itself = [](int i) { return i; };
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text = kHeader;
+  for (const std::string& line : lines) text += line + '\n';
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("a long table keeps its order, whatever its ids and however many comments stand in it") {
+  const auto backwards = [](int i) { return 1000000 - 3 * i; };
+  std::vector<std::string> commented = long_table(backwards);
+  for (std::size_t i = 0; i < commented.size(); i += 7) commented[i] += "\n# a comment\n\n";
+  for (const std::string& text : {joined(long_table(itself)), joined(long_table(backwards)), joined(commented)}) {
+    const Skeleton skeleton = read_skeleton_table(text, "test.skel");
+    REQUIRE(skeleton.internodes.size() == 20000);
+    bool in_order = true;
+    for (int i = 0; i < 20000; ++i) {
+      const Internode& internode = skeleton.internodes[static_cast<std::size_t>(i)];
+      in_order = in_order && internode.base.y == i && internode.parent == i - 1;
+    }
+    CHECK(in_order);
+  }
+}
+
+TEST_CASE("of several mistakes in a long table the first is reported") {
+  const std::vector<std::string> right = long_table(itself);
+  const auto with = [&](const std::map<std::size_t, std::string>& lines) {
+    std::vector<std::string> wrong = right;
+    for (const auto& [i, line] : lines) wrong[i] = line;
+    return mistake(joined(wrong));
+  };
+  const std::string unreadable = "x", orphan = "50000 40000 0 0 0 0 1 0 1 1", repeated = "7 6 0 0 0 0 1 0 1 1";
+  CHECK(with({{15000, unreadable}, {19999, unreadable}}) ==
+        "15002:2: expected 10 fields, `parent` and what follows are missing");
+  CHECK(with({{12000, orphan}, {12001, unreadable}, {19000, repeated}}) ==
+        "12002:7: the parent 40000 has not been listed; parents come before children");
+  CHECK(with({{11999, repeated}, {12001, unreadable}, {100, "# left out"}}) ==
+        "103:5: the parent 100 has not been listed; parents come before children");
+  CHECK(with({{11999, repeated}, {12000, unreadable}, {19000, orphan}}) == "12001:1: the id 7 is used twice");
+  CHECK(with({{3, "50000 19999 0 0 0 0 1 0 1 1"}}) ==
+        "5:7: the parent 19999 has not been listed; parents come before children");
 }
 
 TEST_CASE("a table without internodes is an empty skeleton") {
