@@ -1,4 +1,5 @@
-# Everything that is not ours, found once. cmake/barkridge-config.cmake.in repeats this list for users.
+# Everything that is not ours, found once. cmake/barkridge-config.cmake.in repeats for users what the
+# libraries need.
 find_package(Threads REQUIRED)
 find_package(glm REQUIRED)
 find_package(fmt REQUIRED)
