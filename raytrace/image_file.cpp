@@ -1,6 +1,8 @@
 #include "raytrace/image_file.h"
 
 #include <dlfcn.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <chrono>
@@ -70,16 +72,18 @@ std::vector<float> exr_pixels(const Image& image) {
 }
 
 std::vector<std::uint8_t> png_pixels(const Image& image) {
-  std::vector<std::uint8_t> pixels(image.rgba.size());
-  for (std::size_t i = 0; i < pixels.size(); i += 4) {
-    const double alpha = image.rgba[i + 3];
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double straight = alpha > 0 ? image.rgba[i + c] / alpha : 0.0;
-      pixels[i + c] = to_byte(srgb_encoded(std::clamp(straight, 0.0, 1.0)));
+  std::vector<std::uint8_t> bytes(image.rgba.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bytes.size() / 4), [&](const auto& pixels) {
+    for (std::size_t i = 4 * pixels.begin(); i < 4 * pixels.end(); i += 4) {
+      const double alpha = image.rgba[i + 3];
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double straight = alpha > 0 ? image.rgba[i + c] / alpha : 0.0;
+        bytes[i + c] = to_byte(srgb_encoded(std::clamp(straight, 0.0, 1.0)));
+      }
+      bytes[i + 3] = to_byte(alpha);
     }
-    pixels[i + 3] = to_byte(alpha);
-  }
-  return pixels;
+  });
+  return bytes;
 }
 
 void encode(const EncodedPixels& pixels, const ImageMetadata& metadata, OutputFile& file) {
