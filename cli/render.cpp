@@ -57,6 +57,7 @@ void run(const RenderArguments& arguments) {
   ProgressBar bar(arguments.quiet);
   const Model model = make_model(scene, {bar.stage("growing"), warn});
   const std::shared_ptr<const Field> field = compile(model.tree);
+  // Codecs that cannot be loaded end the job as soon as that is known.
   options.progress = [shown = bar.stage("rendering")](double fraction) {
     prepare_image_writing();
     return !shown || shown(fraction);
