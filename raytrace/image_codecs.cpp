@@ -38,56 +38,35 @@ class SinkProxy : public OIIO::Filesystem::IOProxy {
   ImageSink& sink_;
 };
 
-// What both formats share.
-OIIO::ImageSpec common_spec(const EncodedPixels& pixels, const ImageMetadata& metadata, OIIO::TypeDesc format) {
-  const PixelRegion& region = pixels.region;
-  OIIO::ImageSpec spec(region.width, region.height, 4, format);
+void encode(const Image& image, const std::string& path, const ImageMetadata& metadata, ImageSink& sink) {
+  const PixelRegion& region = image.region;
+  OIIO::ImageSpec spec(region.width, region.height, 4, OIIO::TypeDesc::HALF);
   spec.x = region.x;
   spec.y = region.y;
-  spec.full_width = pixels.full_width;
-  spec.full_height = pixels.full_height;
+  spec.full_width = image.full_width;
+  spec.full_height = image.full_height;
   for (const auto& [name, text] : metadata) spec.attribute(name, text);
-  return spec;
-}
-
-void encode(const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const EncodedPixels& pixels,
-            ImageSink& sink) {
-  SinkProxy proxy(sink);
-  const auto output = OIIO::ImageOutput::create(format, &proxy);
-  if (!output) throw std::runtime_error(OIIO::geterror());
-  const bool done = output->open(pixels.path, spec) && output->write_image(type, pixels.rgba) && output->close();
-  if (!done) throw std::runtime_error(output->geterror());
-}
-
-void encode_exr(const EncodedPixels& pixels, const ImageMetadata& metadata, ImageSink& sink) {
-  OIIO::ImageSpec spec = common_spec(pixels, metadata, OIIO::TypeDesc::HALF);
   spec.attribute("compression", "zip");
   spec.attribute("oiio:ColorSpace", "Linear");
   const float rec709[8] = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
   spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), rec709);
   // Without a date of ours the time of writing gets in.
   spec.attribute("DateTime", "1970:01:01 00:00:00");
-  encode("openexr", spec, OIIO::TypeDesc::FLOAT, pixels, sink);
-}
 
-void encode_png(const EncodedPixels& pixels, const ImageMetadata& metadata, ImageSink& sink) {
-  OIIO::ImageSpec spec = common_spec(pixels, metadata, OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  spec.attribute("oiio:UnassociatedAlpha", 1);
-  // Grain hides the likeness of neighbours, so that rows as they are make smaller files of most pictures than
-  // differences do, and the level takes a quarter of the default's time.
-  constexpr int kNoFilter = 0x08;
-  spec.attribute("png:compressionLevel", 4);
-  spec.attribute("png:filter", kNoFilter);
-  encode("png", spec, OIIO::TypeDesc::UINT8, pixels, sink);
+  SinkProxy proxy(sink);
+  const auto output = OIIO::ImageOutput::create("openexr", &proxy);
+  if (!output) throw std::runtime_error(OIIO::geterror());
+  const bool done =
+      output->open(path, spec) && output->write_image(OIIO::TypeDesc::FLOAT, image.rgba.data()) && output->close();
+  if (!done) throw std::runtime_error(output->geterror());
 }
 
 }  // namespace
 
-CodecStatus barkridge_encode_image(const EncodedPixels& pixels, const ImageMetadata& metadata, ImageSink& sink,
-                                   std::string& reason) noexcept {
+CodecStatus barkridge_encode_exr(const Image& image, const std::string& path, const ImageMetadata& metadata,
+                                 ImageSink& sink, std::string& reason) noexcept {
   try {
-    (pixels.format == EncodedPixels::Format::kExr ? encode_exr : encode_png)(pixels, metadata, sink);
+    encode(image, path, metadata, sink);
     return CodecStatus::kDone;
   } catch (const std::bad_alloc&) {
     return CodecStatus::kOutOfMemory;

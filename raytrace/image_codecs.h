@@ -9,16 +9,6 @@
 
 namespace barkridge {
 
-/// A picture as its file holds it. Rows of RGBA from the top: floats for an EXR, bytes for a PNG.
-struct EncodedPixels {
-  enum class Format { kExr, kPng };
-  Format format;
-  std::string path;  ///< for messages
-  int full_width, full_height;
-  PixelRegion region;
-  const void* rgba;
-};
-
 /// Where a codec's bytes go. Codecs mishandle failing writes (some hang, some report success), so they are never told
 /// of one: whoever owns the sink remembers it.
 class ImageSink {
@@ -34,8 +24,9 @@ class ImageSink {
 
 enum class CodecStatus { kDone, kFailed, kOutOfMemory };
 
-/// The module's only function: writes the file's bytes into the sink. `reason` is set where the status is `kFailed`.
-extern "C" CodecStatus barkridge_encode_image(const EncodedPixels& pixels, const ImageMetadata& metadata,
-                                              ImageSink& sink, std::string& reason) noexcept;
+/// The module's only function: writes the bytes of an EXR into the sink. The path is for messages; `reason` is set
+/// where the status is `kFailed`.
+extern "C" CodecStatus barkridge_encode_exr(const Image& image, const std::string& path, const ImageMetadata& metadata,
+                                            ImageSink& sink, std::string& reason) noexcept;
 
 }  // namespace barkridge

@@ -1,12 +1,9 @@
 #include "raytrace/image_file.h"
 
 #include <dlfcn.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <future>
@@ -14,26 +11,26 @@
 
 #include "base/output_file.h"
 #include "raytrace/image_codecs.h"
+#include "raytrace/png_file.h"
 
 namespace barkridge {
 
 namespace {
 
-using EncodeImage = decltype(&barkridge_encode_image);
+using EncodeExr = decltype(&barkridge_encode_exr);
 
 // Never closed again: OpenImageIO's libraries are not made for that.
-EncodeImage load_codecs() {
+EncodeExr load_codecs() {
   void* const module = ::dlopen(BARKRIDGE_IMAGE_MODULE, RTLD_NOW | RTLD_LOCAL);
-  void* const function = module == nullptr ? nullptr : ::dlsym(module, "barkridge_encode_image");
+  void* const function = module == nullptr ? nullptr : ::dlsym(module, "barkridge_encode_exr");
   if (function == nullptr) {
-    throw IoError(BARKRIDGE_IMAGE_MODULE,
-                  std::string("is needed to write pictures and cannot be loaded: ") + ::dlerror());
+    throw IoError(BARKRIDGE_IMAGE_MODULE, std::string("is needed to write EXR and cannot be loaded: ") + ::dlerror());
   }
-  return reinterpret_cast<EncodeImage>(function);
+  return reinterpret_cast<EncodeExr>(function);
 }
 
-const std::shared_future<EncodeImage>& codecs() {
-  static const std::shared_future<EncodeImage> loaded = std::async(std::launch::async, load_codecs).share();
+const std::shared_future<EncodeExr>& codecs() {
+  static const std::shared_future<EncodeExr> loaded = std::async(std::launch::async, load_codecs).share();
   return loaded;
 }
 
@@ -57,42 +54,18 @@ std::string lower_extension(const std::string& path) {
   return extension;
 }
 
-// IEC 61966-2-1.
-double srgb_encoded(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-}
+bool is_exr(const std::string& path) { return lower_extension(path) == ".exr"; }
 
-std::uint8_t to_byte(double unit) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(unit, 0.0, 1.0))); }
-
-std::vector<float> exr_pixels(const Image& image) {
+void encode_exr(const Image& image, const std::string& path, const ImageMetadata& metadata, OutputFile& file) {
   constexpr float kLargestHalf = 65504;
-  std::vector<float> pixels = image.rgba;
-  for (float& value : pixels) value = std::min(value, kLargestHalf);
-  return pixels;
-}
-
-std::vector<std::uint8_t> png_pixels(const Image& image) {
-  std::vector<std::uint8_t> bytes(image.rgba.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bytes.size() / 4), [&](const auto& pixels) {
-    for (std::size_t i = 4 * pixels.begin(); i < 4 * pixels.end(); i += 4) {
-      const double alpha = image.rgba[i + 3];
-      for (std::size_t c = 0; c < 3; ++c) {
-        const double straight = alpha > 0 ? image.rgba[i + c] / alpha : 0.0;
-        bytes[i + c] = to_byte(srgb_encoded(std::clamp(straight, 0.0, 1.0)));
-      }
-      bytes[i + 3] = to_byte(alpha);
-    }
-  });
-  return bytes;
-}
-
-void encode(const EncodedPixels& pixels, const ImageMetadata& metadata, OutputFile& file) {
+  Image clipped = image;
+  for (float& value : clipped.rgba) value = std::min(value, kLargestHalf);
   FileSink sink(file);
   std::string reason;
-  const CodecStatus status = codecs().get()(pixels, metadata, sink, reason);
+  const CodecStatus status = codecs().get()(clipped, path, metadata, sink, reason);
   if (status == CodecStatus::kOutOfMemory) throw std::bad_alloc();
   // A file that failed has the reason itself, and tells it when it is committed.
-  if (status == CodecStatus::kFailed && !file.failed()) throw IoError(pixels.path, reason);
+  if (status == CodecStatus::kFailed && !file.failed()) throw IoError(path, reason);
 }
 
 }  // namespace
@@ -105,7 +78,8 @@ void check_image_path(const std::string& path) {
   }
 }
 
-void prepare_image_writing() {
+void prepare_image_writing(const std::vector<std::string>& paths) {
+  if (std::none_of(paths.begin(), paths.end(), is_exr)) return;
   const bool known = codecs().wait_for(std::chrono::seconds(0)) == std::future_status::ready;
   if (known) codecs().get();
 }
@@ -113,14 +87,7 @@ void prepare_image_writing() {
 void write_image(const Image& image, const std::string& path, const ImageMetadata& metadata) {
   check_image_path(path);
   OutputFile file(path);
-  const auto write = [&](EncodedPixels::Format format, const void* rgba) {
-    encode({format, path, image.full_width, image.full_height, image.region, rgba}, metadata, file);
-  };
-  if (lower_extension(path) == ".exr") {
-    write(EncodedPixels::Format::kExr, exr_pixels(image).data());
-  } else {
-    write(EncodedPixels::Format::kPng, png_pixels(image).data());
-  }
+  (is_exr(path) ? encode_exr : encode_png)(image, path, metadata, file);
   file.commit();
 }
 

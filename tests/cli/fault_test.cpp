@@ -87,7 +87,7 @@ TEST_CASE("a reader that goes away ends the program without a word") {
   CHECK(finished.err.empty());
 }
 
-TEST_CASE("the libraries of picture files are not loaded before there is a picture") {
+TEST_CASE("the libraries of EXR files are not loaded before there is one to be written") {
   const Finished traced = run_program({}, with([] { ::setenv("LD_TRACE_LOADED_OBJECTS", "1", 1); }));
   CHECK_THAT(traced.out, Contains("libembree") && !Contains("OpenImageIO") && !Contains("OpenEXR"));
 }
