@@ -9,6 +9,7 @@
 #include "bench/support/study.h"
 #include "bench/support/timing.h"
 #include "bench/support/ways.h"
+#include "raytrace/image_file.h"
 #include "scene/pipeline.h"
 
 namespace barkridge::bench {
@@ -30,6 +31,7 @@ Numbers make_picture(const Options& options, const std::string& output) {
   scene.image.width = options.width;
   scene.image.height = options.height;
   scene.image.samples_per_pixel = options.samples;
+  prepare_image_writing({output});
   const Model model = make_model(scene);
   const double grown = all.seconds();
   const std::shared_ptr<const Field> field = compile(model.tree);

@@ -52,11 +52,16 @@ void run(const RenderArguments& arguments) {
   options.region = arguments.region;
   check_memory(options);
   for (const std::string& output : arguments.outputs) check_writable(output);
+  prepare_image_writing(arguments.outputs);
 
   ProgressBar bar(arguments.quiet);
   const Model model = make_model(scene, {bar.stage("growing"), warn});
   const std::shared_ptr<const Field> field = compile(model.tree);
-  options.progress = bar.stage("rendering");
+  // A codec that cannot be loaded ends the job as soon as that is known.
+  options.progress = [&arguments, shown = bar.stage("rendering")](double fraction) {
+    prepare_image_writing(arguments.outputs);
+    return !shown || shown(fraction);
+  };
   const Image image = render(*field, make_render_scene(scene, *field), options);
   for (const std::string& output : arguments.outputs) write_picture(image, scene, model, output);
 }

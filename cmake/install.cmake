@@ -5,6 +5,5 @@ configure_package_config_file(cmake/barkridge-config.cmake.in ${PROJECT_BINARY_D
                               INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/barkridge)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/barkridge-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/barkridge-config.cmake ${PROJECT_BINARY_DIR}/barkridge-config-version.cmake
-              cmake/openimageio_without_opencv.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/barkridge)
 install(DIRECTORY scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/barkridge/scenes)

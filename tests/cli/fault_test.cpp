@@ -87,6 +87,11 @@ TEST_CASE("a reader that goes away ends the program without a word") {
   CHECK(finished.err.empty());
 }
 
+TEST_CASE("the libraries of EXR files are not loaded before there is one to be written") {
+  const Finished traced = run_program({}, with([] { ::setenv("LD_TRACE_LOADED_OBJECTS", "1", 1); }));
+  CHECK_THAT(traced.out, Contains("libembree") && !Contains("OpenImageIO") && !Contains("OpenEXR"));
+}
+
 TEST_CASE("targets that cannot be written are a failure found before the work") {
   const ScratchFolder folder;
   const std::string scene = folder.write("a.toml", kBall);

@@ -27,6 +27,17 @@ Image noise(int full_width, int full_height, const PixelRegion& region) {
 const ImageMetadata kMetadata{
     {"barkridge/version", "1.2.3"}, {"barkridge/scene_sha256", "abc"}, {"barkridge/seed", "7"}};
 
+// The four channels of a PNG as they are in the file.
+std::vector<std::uint8_t> straight_bytes(const std::string& path) {
+  OIIO::ImageSpec config;
+  config.attribute("oiio:UnassociatedAlpha", 1);
+  const auto input = OIIO::ImageInput::open(path, &config);
+  REQUIRE(input);
+  std::vector<std::uint8_t> bytes(4 * static_cast<std::size_t>(input->spec().width * input->spec().height));
+  REQUIRE(input->read_image(0, 0, 0, 4, OIIO::TypeDesc::UINT8, bytes.data()));
+  return bytes;
+}
+
 }  // namespace
 
 TEST_CASE("an EXR holds linear half RGBA with its region and metadata") {
@@ -60,17 +71,55 @@ TEST_CASE("a PNG holds 8-bit sRGB with straight alpha and metadata") {
   CHECK(spec.format == OIIO::TypeDesc::UINT8);
   CHECK(spec.nchannels == 4);
   CHECK(spec.get_string_attribute("oiio:ColorSpace") == "sRGB");
-  CHECK(spec.get_string_attribute("barkridge/version") == "1.2.3");
-  CHECK(spec.get_string_attribute("barkridge/seed") == "7");
-  const OIIO::ImageSpec keep = [] {
-    OIIO::ImageSpec config;
-    config.attribute("oiio:UnassociatedAlpha", 1);
-    return config;
-  }();
-  const auto raw = OIIO::ImageInput::open(folder.path("a.png"), &keep);
-  std::vector<std::uint8_t> pixels(16);
-  REQUIRE(raw->read_image(0, 0, 0, 4, OIIO::TypeDesc::UINT8, pixels.data()));
-  CHECK(pixels == std::vector<std::uint8_t>{0, 255, 128, 255, 255, 0, 7, 255, 128, 0, 255, 128, 0, 0, 0, 0});
+  for (const auto& [name, text] : kMetadata) CHECK(spec.get_string_attribute(name) == text);
+  CHECK(straight_bytes(folder.path("a.png")) ==
+        std::vector<std::uint8_t>{0, 255, 128, 255, 255, 0, 7, 255, 128, 0, 255, 128, 0, 0, 0, 0});
+}
+
+TEST_CASE("a PNG of a region knows its place") {
+  const ScratchFolder folder;
+  for (const PixelRegion& region : {PixelRegion{10, 20, 33, 17}, {0, 20, 33, 17}, {10, 0, 33, 17}, {0, 0, 60, 40}}) {
+    write_image(noise(60, 40, region), folder.path("a.png"));
+    const auto input = OIIO::ImageInput::open(folder.path("a.png"));
+    REQUIRE(input);
+    const OIIO::ImageSpec& spec = input->spec();
+    CHECK((spec.x == region.x && spec.y == region.y && spec.width == region.width && spec.height == region.height));
+  }
+}
+
+TEST_CASE("a PNG keeps every byte of alpha") {
+  const ScratchFolder folder;
+  Image image{256, 1, {0, 0, 256, 1}, {}};
+  for (int i = 0; i < 256; ++i) {
+    const float alpha = static_cast<float>(i) / 255;
+    image.rgba.insert(image.rgba.end(), {alpha, alpha, 0, alpha});  // straight yellow
+  }
+  write_image(image, folder.path("a.png"));
+  const std::vector<std::uint8_t> pixels = straight_bytes(folder.path("a.png"));
+  for (int i = 0; i < 256; ++i) {
+    const std::uint8_t yellow = i > 0 ? 255 : 0;
+    REQUIRE(std::vector<std::uint8_t>(pixels.begin() + 4 * i, pixels.begin() + 4 * (i + 1)) ==
+            std::vector<std::uint8_t>{yellow, yellow, 0, static_cast<std::uint8_t>(i)});
+  }
+}
+
+TEST_CASE("metadata may be UTF-8, and long") {
+  const ScratchFolder folder;
+  const std::string umlauts = "B\u00e4ume \u6811", lengthy(10000, 'x');
+  for (const std::string name : {"a.exr", "a.png"}) {
+    write_image(noise(2, 2, {0, 0, 2, 2}), folder.path(name), {{"barkridge/a", umlauts}, {"barkridge/b", lengthy}});
+    const auto input = OIIO::ImageInput::open(folder.path(name));
+    REQUIRE(input);
+    CHECK(input->spec().get_string_attribute("barkridge/a") == umlauts);
+    CHECK(input->spec().get_string_attribute("barkridge/b") == lengthy);
+  }
+}
+
+TEST_CASE("what a format has no room for is an error that leaves nothing") {
+  const ScratchFolder folder;
+  CHECK_THROWS_WITH(write_image({0, 0, {0, 0, 0, 0}, {}}, folder.path("a.png")), Catch::Contains("a.png: "));
+  CHECK_THROWS_AS(write_image(noise(2, 2, {0, 0, 2, 2}), folder.path("a.png"), {{"", "no name"}}), IoError);
+  CHECK(folder.entries() == 0);
 }
 
 TEST_CASE("equal pictures give equal bytes, at any time") {

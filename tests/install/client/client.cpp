@@ -1,9 +1,11 @@
 #include "blobtree/from_skeleton.h"
 #include "mesh/topology.h"
 #include "polygonize/polygonize.h"
+#include "raytrace/image_file.h"
 #include "scene/pipeline.h"
 
-int main() {
+int main(int, char** argv) {
+  barkridge::write_image({2, 2, {0, 0, 2, 2}, std::vector<float>(16, 1)}, argv[1]);
   barkridge::Skeleton skeleton;
   skeleton.internodes.push_back({barkridge::Vec3(0), barkridge::Vec3(0, 1, 0), 0.2, 0.2});
   barkridge::PolygonizeOptions options;
