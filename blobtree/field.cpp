@@ -1,6 +1,7 @@
 #include "blobtree/field.h"
 
-#include <vector>
+#include <algorithm>
+#include <array>
 
 #include "blobtree/ray_search.h"
 
@@ -8,7 +9,8 @@ namespace barkridge {
 
 namespace {
 
-std::optional<double> search(const Field& field, const Ray& ray, const Interval& range, double tolerance, bool any) {
+std::optional<double> search(const Field& field, const Ray& ray, const Interval& range, double tolerance,
+                             double precision, bool any) {
   const Vec3 a = ray.at(range.lo), b = ray.at(range.hi);
   const FieldBounds bounds = field.bounds({glm::min(a, b), glm::max(a, b)});
   if (bounds.value.hi < kIsoValue) return std::nullopt;
@@ -16,17 +18,18 @@ std::optional<double> search(const Field& field, const Ray& ray, const Interval&
   constexpr double kMostVariation = 8;
   const double length = range.hi - range.lo, middle = 0.5 * (range.lo + range.hi);
   if (bounds.slope * length > kMostVariation && length > 2 * tolerance) {
-    const std::optional<double> first = search(field, ray, {range.lo, middle}, tolerance, any);
-    return first ? first : search(field, ray, {middle, range.hi}, tolerance, any);
+    const std::optional<double> first = search(field, ray, {range.lo, middle}, tolerance, precision, any);
+    return first ? first : search(field, ray, {middle, range.hi}, tolerance, precision, any);
   }
-  std::vector<Vec3> points;
-  const auto sample = [&](const Interval& part, std::span<double, 16> values) {
-    points.clear();
-    const double step = (part.hi - part.lo) / static_cast<double>(values.size() - 1);
-    for (std::size_t i = 0; i < values.size(); ++i) points.push_back(ray.at(part.lo + static_cast<double>(i) * step));
+  const auto sample = [&](const Interval& part, std::array<float, 16>& samples) {
+    std::array<Vec3, 16> points;
+    std::array<double, 16> values;
+    const double step = (part.hi - part.lo) / static_cast<double>(points.size() - 1);
+    for (std::size_t i = 0; i < points.size(); ++i) points[i] = ray.at(part.lo + static_cast<double>(i) * step);
     field.values(points, values);
+    std::transform(values.begin(), values.end(), samples.begin(), [](double f) { return static_cast<float>(f); });
   };
-  return RaySearch(sample, bounds, tolerance, any).run(range);
+  return RaySearch(sample, bounds, tolerance, precision, any).run(range);
 }
 
 // The whole support as one cell.
@@ -37,20 +40,20 @@ class SingleCell final : public SurfaceCells {
   std::size_t size() const override { return box_.empty() ? 0 : 1; }
   Box box(std::size_t) const override { return box_; }
 
-  std::optional<double> first_inside(std::size_t, const Ray& ray, const Interval& range,
-                                     double tolerance) const override {
+  std::optional<double> first_inside(std::size_t, const Ray& ray, const Interval& range, double tolerance,
+                                     double precision) const override {
     const Interval part = clip(ray, box_, range);
-    return part.empty() ? std::nullopt : search(*field_, ray, part, tolerance, false);
+    return part.empty() ? std::nullopt : search(*field_, ray, part, tolerance, precision, false);
   }
   bool any_inside(std::size_t, const Ray& ray, const Interval& range, double tolerance) const override {
     const Interval part = clip(ray, box_, range);
-    return !part.empty() && search(*field_, ray, part, tolerance, true).has_value();
+    return !part.empty() &&
+           search(*field_, ray, part, tolerance, std::numeric_limits<double>::infinity(), true).has_value();
   }
-  Vec3 gradient(std::size_t, const Vec3& point) const override {
-    double value = 0;
-    Vec3 gradient{0};
-    field_->values_and_gradients({&point, 1}, {&value, 1}, {&gradient, 1});
-    return gradient;
+  FieldSample sample(std::size_t, const Vec3& point) const override {
+    FieldSample s;
+    field_->values_and_gradients({&point, 1}, {&s.value, 1}, {&s.gradient, 1});
+    return s;
   }
 
  private:

@@ -78,7 +78,7 @@ void evaluate(const FieldModel& model, const FieldProgram& program, std::span<co
 /// The smallest t in a range of a ray with F >= kIsoValue, or with `any` any such t, or none [RaySearch]: in single
 /// precision about the range's middle.
 std::optional<double> search_along(const FieldModel& model, const FieldProgram& program, const FieldBounds& bounds,
-                                   const Ray& ray, const Interval& range, double tolerance, bool any);
+                                   const Ray& ray, const Interval& range, double tolerance, double precision, bool any);
 
 /// Bounds on a box; and, where `rest` is given, the program of all that can matter there, whose values and gradients in
 /// the box are those of `program` to the bit.

@@ -341,13 +341,14 @@ void evaluate(const FieldModel& model, const FieldProgram& program, std::span<co
 }
 
 std::optional<double> search_along(const FieldModel& model, const FieldProgram& program, const FieldBounds& bounds,
-                                   const Ray& ray, const Interval& range, double tolerance, bool any) {
+                                   const Ray& ray, const Interval& range, double tolerance, double precision,
+                                   bool any) {
   constexpr std::size_t kSamples = kBatchGranule;
   Machine machine(model, program, kSamples, false, scratch_of_thread());
   const double middle = 0.5 * (range.lo + range.hi);
   const bool follows = machine.can_follow_line();
   follows ? machine.follow_line(ray.at(middle), ray.direction) : machine.set_origin(ray.at(middle));
-  const auto sample = [&](const Interval& part, std::span<double, kSamples> values) {
+  const auto sample = [&](const Interval& part, std::array<float, kSamples>& values) {
     const auto first = static_cast<float>(model.units.scale * (part.lo - middle));
     const auto step = static_cast<float>(model.units.scale * (part.hi - part.lo) / (kSamples - 1));
     for (std::size_t axis = 0; axis < (follows ? 1 : 3); ++axis) {
@@ -356,9 +357,9 @@ std::optional<double> search_along(const FieldModel& model, const FieldProgram& 
       for (std::size_t i = 0; i < kSamples; ++i) column[i] = slope * (first + step * static_cast<float>(i));
     }
     machine.run(kSamples);
-    for (std::size_t i = 0; i < kSamples; ++i) values[i] = static_cast<double>(machine.result().f[i]);
+    std::copy_n(machine.result().f, kSamples, values.begin());
   };
-  return RaySearch(sample, bounds, tolerance, any).run(range);
+  return RaySearch(sample, bounds, tolerance, precision, any).run(range);
 }
 
 }  // namespace barkridge

@@ -151,23 +151,20 @@ class ModelCells final : public SurfaceCells {
     return intersect(intersect(box_around(cells_[cell].cylinder()), model_->support), region_);
   }
 
-  std::optional<double> first_inside(std::size_t cell, const Ray& ray, const Interval& range,
-                                     double tolerance) const override {
-    return search(cell, ray, range, tolerance, false);
+  std::optional<double> first_inside(std::size_t cell, const Ray& ray, const Interval& range, double tolerance,
+                                     double precision) const override {
+    return search(cell, ray, range, tolerance, precision, false);
   }
   bool any_inside(std::size_t cell, const Ray& ray, const Interval& range, double tolerance) const override {
-    return search(cell, ray, range, tolerance, true).has_value();
+    return search(cell, ray, range, tolerance, std::numeric_limits<double>::infinity(), true).has_value();
   }
 
-  Vec3 gradient(std::size_t cell, const Vec3& point) const override {
-    thread_local LineMeeting meeting;
+  FieldSample sample(std::size_t cell, const Vec3& point) const override {
     thread_local FieldProgram program;
-    meet(*model_, primitives_of(cells_[cell]), {point, {0, 0, -1}}, {0, 0}, meeting);
-    assemble(*model_, meeting.primitives, program);
-    double value = 0;
-    Vec3 gradient{0};
-    evaluate(*model_, program, {&point, 1}, {&value, 1}, {&gradient, 1});
-    return gradient;
+    assemble(*model_, primitives_of(cells_[cell]), program);
+    FieldSample s;
+    evaluate(*model_, program, {&point, 1}, {&s.value, 1}, {&s.gradient, 1});
+    return s;
   }
 
  private:
@@ -206,15 +203,15 @@ class ModelCells final : public SurfaceCells {
   }
 
   std::optional<double> search(std::size_t number, const Ray& ray, const Interval& range, double tolerance,
-                               bool any) const {
+                               double precision, bool any) const {
     Interval part = clip(ray, cells_[number].cylinder(), range);
     if (is_part_ && !part.empty()) part = clip(ray, region_, part);
-    return part.empty() ? std::nullopt : search(primitives_of(cells_[number]), ray, part, tolerance, any);
+    return part.empty() ? std::nullopt : search(primitives_of(cells_[number]), ray, part, tolerance, precision, any);
   }
 
   // Most of the few primitives that matter in the cell do not matter on the ray.
   std::optional<double> search(std::span<const std::uint32_t> primitives, const Ray& ray, const Interval& range,
-                               double tolerance, bool any) const {
+                               double tolerance, double precision, bool any) const {
     thread_local LineMeeting meeting;
     meet(*model_, primitives, ray, range, meeting);
     const Interval reach = meeting.reach;
@@ -227,10 +224,10 @@ class ModelCells final : public SurfaceCells {
     constexpr double kMostVariation = 24;
     const double length = reach.hi - reach.lo, middle = 0.5 * (reach.lo + reach.hi);
     if (std::isinf(bounds.second.lo) && bounds.slope * length > kMostVariation && length > 2 * tolerance) {
-      const std::optional<double> first = search(primitives, ray, {reach.lo, middle}, tolerance, any);
-      return first ? first : search(primitives, ray, {middle, reach.hi}, tolerance, any);
+      const std::optional<double> first = search(primitives, ray, {reach.lo, middle}, tolerance, precision, any);
+      return first ? first : search(primitives, ray, {middle, reach.hi}, tolerance, precision, any);
     }
-    return search_along(*model_, rest, bounds, ray, reach, tolerance, any);
+    return search_along(*model_, rest, bounds, ray, reach, tolerance, precision, any);
   }
 
   std::span<const std::uint32_t> primitives_of(const Cell& cell) const {

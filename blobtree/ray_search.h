@@ -10,54 +10,74 @@
 namespace barkridge {
 
 /// The smallest t in a range with F >= kIsoValue, or none; with `any`, any such t. `sample(range, values)` gives F at
-/// equal distances along a range, ends included. t is exact to `tolerance`; what is thinner than that along the ray may
-/// be missed, and nothing else.
+/// equal distances along a range, ends included. t is exact to `precision`; what is thinner than `tolerance` along the
+/// ray may be missed, and nothing else.
 ///
 /// Where F's bounds rule out that it reaches the iso-value between two samples, that is settled; elsewhere the piece
 /// between them is sampled in turn, first pieces first. As the slope bounds F between samples to first order in their
-/// distance and the second derivative to second order, two or three rounds are enough for a ray that does not graze.
+/// distance and the second derivative to second order, two rounds are enough for most rays that do not graze.
 /// [after Galin et al. 2020, "Segment Tracing Using Local Lipschitz Bounds"]
 template <typename Sample>
 class RaySearch {
  public:
-  RaySearch(const Sample& sample, const FieldBounds& bounds, double tolerance, bool any)
-      : sample_(sample), slope_(bounds.slope), lowest_second_(bounds.second.lo), tolerance_(tolerance), any_(any) {}
+  static constexpr std::size_t kSamples = 16;  // a vector's worth a round
+  using Samples = std::array<float, kSamples>;
+
+  RaySearch(const Sample& sample, const FieldBounds& bounds, double tolerance, double precision, bool any)
+      : sample_(sample),
+        slope_(bounds.slope),
+        lowest_second_(bounds.second.lo),
+        tolerance_(tolerance),
+        precision_(precision),
+        any_(any) {}
 
   std::optional<double> run(const Interval& range) const {
-    std::array<double, kSamples> f;
+    constexpr float kIso = static_cast<float>(kIsoValue);
+    Samples f;
     sample_(range, f);
     if (any_) {
-      for (std::size_t i = 0; i < kSamples; ++i) {
-        if (f[i] >= kIsoValue) return at(range, i);
-      }
+      const std::size_t inside = first_above(f, kSamples);
+      if (inside < kSamples) return at(range, inside);
     }
     const double h = (range.hi - range.lo) / kPieces;
     // How far the field can rise between two samples: above their mean, and above the larger of them.
     const double over_mean = 0.5 * slope_ * h, over_larger = -0.125 * lowest_second_ * h * h;
     const bool is_noise = std::min(over_mean, over_larger) < kNoise || h <= tolerance_;
+    // At least what is reached in each piece.
+    const auto mean_rise = static_cast<float>(over_mean), larger_rise = static_cast<float>(over_larger);
+    Samples highest;
     for (std::size_t i = 0; i < kPieces; ++i) {
-      if (f[i] >= kIsoValue) return at(range, i);
-      const bool crosses = f[i + 1] >= kIsoValue;
-      if (!crosses) {
-        const double highest = std::min(0.5 * (f[i] + f[i + 1]) + over_mean, std::max(f[i], f[i + 1]) + over_larger);
-        if (highest < kIsoValue || is_noise) continue;
-      }
-      const double rise = f[i + 1] - f[i];
-      if (crosses && (is_noise || over_larger * h <= tolerance_ * rise)) {
-        return at(range, i) + h * ((kIsoValue - f[i]) / rise);
+      const float larger = std::max(f[i], f[i + 1]);
+      highest[i] = std::max(std::min(0.5f * (f[i] + f[i + 1]) + mean_rise, larger + larger_rise), larger);
+    }
+    highest[kPieces] = f[kPieces];
+    for (std::size_t i = first_above(highest, kSamples); i < kPieces; ++i) {
+      if (highest[i] < kIso) continue;
+      if (f[i] >= kIso) return at(range, i);
+      const bool crosses = f[i + 1] >= kIso;
+      if (!crosses && is_noise) continue;
+      const double rise = static_cast<double>(f[i + 1] - f[i]);
+      if (crosses && (is_noise || over_larger * h <= precision_ * rise)) {
+        return at(range, i) + h * (static_cast<double>(kIso - f[i]) / rise);
       }
       if (const std::optional<double> hit = run({at(range, i), at(range, i + 1)})) return hit;
       if (crosses) return at(range, i + 1);  // by rounding only
     }
-    if (f[kPieces] >= kIsoValue) return range.hi;
+    if (f[kPieces] >= kIso) return range.hi;
     return std::nullopt;
   }
 
  private:
-  static constexpr std::size_t kSamples = 16;  // a vector's worth a round
   static constexpr std::size_t kPieces = kSamples - 1;
   // Values in single precision may be off by as much: what could exceed the iso-value by less is not told from it.
   static constexpr double kNoise = 1e-6;
+
+  static std::size_t first_above(const Samples& f, std::size_t none) {
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      if (f[i] >= static_cast<float>(kIsoValue)) return i;
+    }
+    return none;
+  }
 
   static double at(const Interval& range, std::size_t i) {
     return range.lo + static_cast<double>(i) * ((range.hi - range.lo) / kPieces);
@@ -67,6 +87,7 @@ class RaySearch {
   double slope_;
   double lowest_second_;
   double tolerance_;
+  double precision_;
   bool any_;
 };
 

@@ -25,6 +25,8 @@ using SceneHandle = std::unique_ptr<RTCSceneTy, ReleaseScene>;
 // where they enter it. There its errors stay well below this margin, by which boxes are grown and the reach of rays
 // lengthened.
 constexpr double kFloatMargin = 1e-6;
+// Cells are asked for roots to so many tolerances.
+constexpr double kCoarseness = 16;
 
 // The ray as the callbacks need it, found again through the first member's address. Its origin is where it enters the
 // scene, so that t counts from there and is precise for rays from afar.
@@ -74,7 +76,8 @@ void Tracer::Scene::intersect_callback(const RTCIntersectFunctionNArguments* arg
   const Scene& scene = *static_cast<const Scene*>(arguments->geometryUserPtr);
   Query& query = *reinterpret_cast<Query*>(arguments->context);
   const std::size_t cell = arguments->primID;
-  const std::optional<double> t = scene.cells->first_inside(cell, query.ray, {0, query.length}, scene.tolerance);
+  const std::optional<double> t =
+      scene.cells->first_inside(cell, query.ray, {0, query.length}, scene.tolerance, kCoarseness * scene.tolerance);
   if (!t || *t >= query.t) return;
   query.t = *t;
   query.cell = cell;
@@ -163,8 +166,12 @@ std::optional<Hit> Tracer::first_hit(const Ray& ray, double t_min, double t_max)
   rtcIntersect1(scene_->embree.get(), &query.context, &rayhit);
   if (!query.cell) return std::nullopt;
 
+  // What is found there gives one step of Newton's method, whose error is quadratic in what was left.
+  const FieldSample found = scene_->cells->sample(*query.cell, query.ray.at(query.t));
+  const Vec3& gradient = found.gradient;
+  const double step = (kIsoValue - found.value) / glm::dot(gradient, query.ray.direction);
+  if (query.t > 0 && std::abs(step) <= kCoarseness * scene_->tolerance) query.t += step;
   const Vec3 point = query.ray.at(query.t);
-  const Vec3 gradient = scene_->cells->gradient(*query.cell, point);
   const double slope = glm::length(gradient);
   const bool steep = slope > 0 && std::isfinite(slope);
   Hit hit{range.lo + query.t, point, steep ? -gradient / slope : -ray.direction, 0};
