@@ -40,20 +40,20 @@ class SingleCell final : public SurfaceCells {
   std::size_t size() const override { return box_.empty() ? 0 : 1; }
   Box box(std::size_t) const override { return box_; }
 
-  std::optional<double> first_inside(std::size_t, const Ray& ray, const Interval& range, double tolerance,
-                                     double precision) const override {
+  std::optional<SurfacePoint> first_inside(std::size_t, const Ray& ray, const Interval& range, double,
+                                           double tolerance) const override {
     const Interval part = clip(ray, box_, range);
-    return part.empty() ? std::nullopt : search(*field_, ray, part, tolerance, precision, false);
+    if (part.empty()) return std::nullopt;
+    const std::optional<double> t = search(*field_, ray, part, tolerance, kCoarseness * tolerance, false);
+    if (!t) return std::nullopt;
+    return polished(ray, *t, part, tolerance, [&](const Vec3& point, double& value, Vec3& gradient) {
+      field_->values_and_gradients({&point, 1}, {&value, 1}, {&gradient, 1});
+    });
   }
   bool any_inside(std::size_t, const Ray& ray, const Interval& range, double tolerance) const override {
     const Interval part = clip(ray, box_, range);
-    return !part.empty() &&
-           search(*field_, ray, part, tolerance, std::numeric_limits<double>::infinity(), true).has_value();
-  }
-  FieldSample sample(std::size_t, const Vec3& point) const override {
-    FieldSample s;
-    field_->values_and_gradients({&point, 1}, {&s.value, 1}, {&s.gradient, 1});
-    return s;
+    constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+    return !part.empty() && search(*field_, ray, part, tolerance, kAnywhere, true).has_value();
   }
 
  private:

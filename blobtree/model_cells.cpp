@@ -8,6 +8,7 @@
 
 #include "blobtree/falloff.h"
 #include "blobtree/line_cones.h"
+#include "blobtree/ray_search.h"
 #include "blobtree/tube.h"
 
 namespace barkridge {
@@ -151,20 +152,24 @@ class ModelCells final : public SurfaceCells {
     return intersect(intersect(box_around(cells_[cell].cylinder()), model_->support), region_);
   }
 
-  std::optional<double> first_inside(std::size_t cell, const Ray& ray, const Interval& range, double tolerance,
-                                     double precision) const override {
-    return search(cell, ray, range, tolerance, precision, false);
+  std::optional<SurfacePoint> first_inside(std::size_t cell, const Ray& ray, const Interval& range, double limit,
+                                           double tolerance) const override {
+    const Interval part = clip_to_cell(cell, ray, range);
+    if (part.empty() || part.lo >= limit) return std::nullopt;
+    thread_local FieldProgram rest;
+    const std::optional<double> t =
+        search(primitives_of(cells_[cell]), ray, part, tolerance, kCoarseness * tolerance, false, rest);
+    if (!t || *t >= limit) return std::nullopt;
+    return polished(ray, *t, part, tolerance, [&](const Vec3& point, double& value, Vec3& gradient) {
+      evaluate(*model_, rest, {&point, 1}, {&value, 1}, {&gradient, 1});
+    });
   }
   bool any_inside(std::size_t cell, const Ray& ray, const Interval& range, double tolerance) const override {
-    return search(cell, ray, range, tolerance, std::numeric_limits<double>::infinity(), true).has_value();
-  }
-
-  FieldSample sample(std::size_t cell, const Vec3& point) const override {
-    thread_local FieldProgram program;
-    assemble(*model_, primitives_of(cells_[cell]), program);
-    FieldSample s;
-    evaluate(*model_, program, {&point, 1}, {&s.value, 1}, {&s.gradient, 1});
-    return s;
+    const Interval part = clip_to_cell(cell, ray, range);
+    thread_local FieldProgram rest;
+    constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+    return !part.empty() &&
+           search(primitives_of(cells_[cell]), ray, part, tolerance, kAnywhere, true, rest).has_value();
   }
 
  private:
@@ -202,21 +207,20 @@ class ModelCells final : public SurfaceCells {
     }
   }
 
-  std::optional<double> search(std::size_t number, const Ray& ray, const Interval& range, double tolerance,
-                               double precision, bool any) const {
-    Interval part = clip(ray, cells_[number].cylinder(), range);
-    if (is_part_ && !part.empty()) part = clip(ray, region_, part);
-    return part.empty() ? std::nullopt : search(primitives_of(cells_[number]), ray, part, tolerance, precision, any);
+  Interval clip_to_cell(std::size_t cell, const Ray& ray, const Interval& range) const {
+    const Interval part = clip(ray, cells_[cell].cylinder(), range);
+    return is_part_ && !part.empty() ? clip(ray, region_, part) : part;
   }
 
-  // Most of the few primitives that matter in the cell do not matter on the ray.
+  // Most of the few primitives that matter in a cell do not matter on the ray. `rest` becomes the program of what does,
+  // near what is found.
   std::optional<double> search(std::span<const std::uint32_t> primitives, const Ray& ray, const Interval& range,
-                               double tolerance, double precision, bool any) const {
+                               double tolerance, double precision, bool any, FieldProgram& rest) const {
     thread_local LineMeeting meeting;
     meet(*model_, primitives, ray, range, meeting);
     const Interval reach = meeting.reach;
     if (reach.empty() || (model_->is_below_sum && meeting.highest_sum < kIsoValue)) return std::nullopt;
-    thread_local FieldProgram met, rest;
+    thread_local FieldProgram met;
     assemble(*model_, meeting.primitives, met);
     const FieldBounds bounds = bound_along(*model_, met, meeting, ray, reach, rest);
     if (bounds.value.hi < kIsoValue) return std::nullopt;
@@ -224,8 +228,8 @@ class ModelCells final : public SurfaceCells {
     constexpr double kMostVariation = 24;
     const double length = reach.hi - reach.lo, middle = 0.5 * (reach.lo + reach.hi);
     if (std::isinf(bounds.second.lo) && bounds.slope * length > kMostVariation && length > 2 * tolerance) {
-      const std::optional<double> first = search(primitives, ray, {reach.lo, middle}, tolerance, precision, any);
-      return first ? first : search(primitives, ray, {middle, reach.hi}, tolerance, precision, any);
+      const std::optional<double> first = search(primitives, ray, {reach.lo, middle}, tolerance, precision, any, rest);
+      return first ? first : search(primitives, ray, {middle, reach.hi}, tolerance, precision, any, rest);
     }
     return search_along(*model_, rest, bounds, ray, reach, tolerance, precision, any);
   }

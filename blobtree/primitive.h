@@ -1,10 +1,14 @@
 #pragma once
 // Primitives, one point at a time, by the plain formulas. [docs/field.md]
 
-#include "blobtree/surface_cells.h"
 #include "blobtree/tree.h"
 
 namespace barkridge {
+
+struct FieldSample {
+  double value = 0;
+  Vec3 gradient{0};
+};
 
 /// The sphere of a primitive's sweep that has the largest field at a point; the field is that sphere's falloff.
 struct Sphere {

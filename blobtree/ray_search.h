@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "blobtree/field.h"
@@ -54,14 +55,20 @@ class RaySearch {
     for (std::size_t i = first_above(highest, kSamples); i < kPieces; ++i) {
       if (highest[i] < kIso) continue;
       if (f[i] >= kIso) return at(range, i);
-      const bool crosses = f[i + 1] >= kIso;
-      if (!crosses && is_noise) continue;
-      const double rise = static_cast<double>(f[i + 1] - f[i]);
-      if (crosses && (is_noise || over_larger * h <= precision_ * rise)) {
-        return at(range, i) + h * (static_cast<double>(kIso - f[i]) / rise);
+      const auto crosses = [&](std::size_t piece) { return f[piece + 1] >= kIso; };
+      if (!crosses(i) && is_noise) continue;
+      if (crosses(i)) {
+        const double rise = static_cast<double>(f[i + 1] - f[i]);
+        if (is_noise || over_larger * h <= precision_ * rise) {
+          return at(range, i) + h * (static_cast<double>(kIso - f[i]) / rise);
+        }
       }
-      if (const std::optional<double> hit = run({at(range, i), at(range, i + 1)})) return hit;
-      if (crosses) return at(range, i + 1);  // by rounding only
+      // Neighbours that are not settled share a round.
+      std::size_t last = i;
+      while (!crosses(last) && last + 1 < std::min(kPieces, i + kMostTogether) && highest[last + 1] >= kIso) ++last;
+      if (const std::optional<double> hit = run({at(range, i), at(range, last + 1)})) return hit;
+      if (crosses(last)) return at(range, last + 1);  // by rounding only
+      i = last;
     }
     if (f[kPieces] >= kIso) return range.hi;
     return std::nullopt;
@@ -69,6 +76,7 @@ class RaySearch {
 
  private:
   static constexpr std::size_t kPieces = kSamples - 1;
+  static constexpr std::size_t kMostTogether = 5;  // so that every round tells three times more
   // Values in single precision may be off by as much: what could exceed the iso-value by less is not told from it.
   static constexpr double kNoise = 1e-6;
 
@@ -90,5 +98,21 @@ class RaySearch {
   double precision_;
   bool any_;
 };
+
+/// What a search is asked for before `polished` does the rest, in units of the tolerance.
+inline constexpr double kCoarseness = 16;
+
+/// A root on a ray that is exact to `kCoarseness` tolerances, after one step of Newton's method: `sample(point, value,
+/// gradient)` is called there. The step's error is quadratic in what was left. t stays in `range`.
+template <typename Sample>
+SurfacePoint polished(const Ray& ray, double t, const Interval& range, double tolerance, const Sample& sample) {
+  double value = 0;
+  Vec3 gradient{0};
+  sample(ray.at(t), value, gradient);
+  const double step = (kIsoValue - value) / glm::dot(gradient, ray.direction);
+  // A longer one would be due to a ray that grazes, whose root is as good as the field's rounding allows.
+  const bool is_short = std::abs(step) <= kCoarseness * tolerance;
+  return {is_short && t > range.lo ? std::clamp(t + step, range.lo, range.hi) : t, gradient};
+}
 
 }  // namespace barkridge

@@ -8,9 +8,9 @@
 
 namespace barkridge {
 
-/// A field at a point.
-struct FieldSample {
-  double value = 0;
+/// Where a ray meets a solid, and the field's gradient there.
+struct SurfacePoint {
+  double t = 0;
   Vec3 gradient{0};
 };
 
@@ -25,16 +25,14 @@ class SurfaceCells {
   /// Holds the cell.
   virtual Box box(std::size_t cell) const = 0;
 
-  /// The smallest t in `range` at which the ray is in the cell and inside the solid, or none; exact to `precision`.
-  /// Nothing is missed that is thicker than `tolerance` along the ray and exceeds the iso-value by more than 1e-5.
-  virtual std::optional<double> first_inside(std::size_t cell, const Ray& ray, const Interval& range, double tolerance,
-                                             double precision) const = 0;
+  /// Where the ray first is in the cell and inside the solid, with t in `range`, or nothing; t is exact to `tolerance`.
+  /// Nothing is missed that is thicker than that along the ray and exceeds the iso-value by more than 1e-5. What is not
+  /// before `limit` need not be found.
+  virtual std::optional<SurfacePoint> first_inside(std::size_t cell, const Ray& ray, const Interval& range,
+                                                   double limit, double tolerance) const = 0;
 
-  /// Whether there is any such t. Cheaper.
+  /// Whether there is any such point. Cheaper.
   virtual bool any_inside(std::size_t cell, const Ray& ray, const Interval& range, double tolerance) const = 0;
-
-  /// The field at a point of the cell.
-  virtual FieldSample sample(std::size_t cell, const Vec3& point) const = 0;
 };
 
 }  // namespace barkridge

@@ -25,8 +25,6 @@ using SceneHandle = std::unique_ptr<RTCSceneTy, ReleaseScene>;
 // where they enter it. There its errors stay well below this margin, by which boxes are grown and the reach of rays
 // lengthened.
 constexpr double kFloatMargin = 1e-6;
-// Cells are asked for roots to so many tolerances.
-constexpr double kCoarseness = 16;
 
 // The ray as the callbacks need it, found again through the first member's address. Its origin is where it enters the
 // scene, so that t counts from there and is precise for rays from afar.
@@ -34,8 +32,7 @@ struct Query {
   RTCIntersectContext context;
   Ray ray;
   double length = 0;
-  double t = std::numeric_limits<double>::infinity();
-  std::optional<std::size_t> cell;
+  std::optional<SurfacePoint> found;
 };
 
 }  // namespace
@@ -75,14 +72,13 @@ void Tracer::Scene::intersect_callback(const RTCIntersectFunctionNArguments* arg
   if (!arguments->valid[0]) return;
   const Scene& scene = *static_cast<const Scene*>(arguments->geometryUserPtr);
   Query& query = *reinterpret_cast<Query*>(arguments->context);
-  const std::size_t cell = arguments->primID;
-  const std::optional<double> t =
-      scene.cells->first_inside(cell, query.ray, {0, query.length}, scene.tolerance, kCoarseness * scene.tolerance);
-  if (!t || *t >= query.t) return;
-  query.t = *t;
-  query.cell = cell;
+  const double limit = query.found ? query.found->t : std::numeric_limits<double>::infinity();
+  const std::optional<SurfacePoint> found =
+      scene.cells->first_inside(arguments->primID, query.ray, {0, query.length}, limit, scene.tolerance);
+  if (!found || found->t >= limit) return;
+  query.found = found;
   RTCRay& ray = reinterpret_cast<RTCRayHit*>(arguments->rayhit)->ray;
-  ray.tfar = std::min(ray.tfar, static_cast<float>(*t * scene.scale + 2 * kFloatMargin));
+  ray.tfar = std::min(ray.tfar, static_cast<float>(found->t * scene.scale + 2 * kFloatMargin));
 }
 
 void Tracer::Scene::occluded_callback(const RTCOccludedFunctionNArguments* arguments) {
@@ -164,17 +160,13 @@ std::optional<Hit> Tracer::first_hit(const Ray& ray, double t_min, double t_max)
   rayhit.hit = {};
   rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(scene_->embree.get(), &query.context, &rayhit);
-  if (!query.cell) return std::nullopt;
+  if (!query.found) return std::nullopt;
 
-  // What is found there gives one step of Newton's method, whose error is quadratic in what was left.
-  const FieldSample found = scene_->cells->sample(*query.cell, query.ray.at(query.t));
-  const Vec3& gradient = found.gradient;
-  const double step = (kIsoValue - found.value) / glm::dot(gradient, query.ray.direction);
-  if (query.t > 0 && std::abs(step) <= kCoarseness * scene_->tolerance) query.t += step;
-  const Vec3 point = query.ray.at(query.t);
+  const auto& [t, gradient] = *query.found;
+  const Vec3 point = query.ray.at(t);
   const double slope = glm::length(gradient);
   const bool steep = slope > 0 && std::isfinite(slope);
-  Hit hit{range.lo + query.t, point, steep ? -gradient / slope : -ray.direction, 0};
+  Hit hit{range.lo + t, point, steep ? -gradient / slope : -ray.direction, 0};
   const double feature = steep ? kIsoValue / slope : 0;
   hit.clearance = std::clamp(1e-4 * feature, 4 * scene_->tolerance, 400 * scene_->tolerance);
   return hit;
