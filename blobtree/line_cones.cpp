@@ -1,5 +1,7 @@
 #include "blobtree/line_cones.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -73,8 +75,16 @@ ConeBounds bounds_at(const ConesMet& met, std::size_t lane, double scale) {
 
 }  // namespace
 
-void meet(const FieldModel& model, std::span<const std::uint32_t> primitives, const Ray& ray, const Interval& range,
-          LineMeeting& meeting) {
+std::vector<Cylinder> warped_supports(const FieldModel& model) {
+  std::vector<Cylinder> supports(model.warps.empty() ? 0 : model.cones.size());
+  tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(supports.size()), [&](std::uint32_t i) {
+    if (is_warped(model, model.sums[i])) supports[i] = support_cylinder(model, i);
+  });
+  return supports;
+}
+
+void meet(const FieldModel& model, std::span<const Cylinder> supports, std::span<const std::uint32_t> primitives,
+          const Ray& ray, const Interval& range, LineMeeting& meeting) {
   meeting.primitives.clear();
   meeting.cones.clear();
   const double middle = 0.5 * (range.lo + range.hi), scale = model.units.scale;
@@ -94,7 +104,7 @@ void meet(const FieldModel& model, std::span<const std::uint32_t> primitives, co
       if (model.other_at(number)) break;
       numbers[count] = number;
       if (is_warped(model, sum)) {
-        place(support_cylinder(model, number), origin, model.units, count, columns);
+        place(supports[number], origin, model.units, count, columns);
       } else {
         place(model.cones[number], model.kinds[number], origin, model.units, count, columns);
       }

@@ -131,7 +131,8 @@ class Planner {
 
 class ModelCells final : public SurfaceCells {
  public:
-  ModelCells(ModelPtr model, const Box& region) : model_(std::move(model)), region_(region) {
+  ModelCells(ModelPtr model, const Box& region)
+      : model_(std::move(model)), warped_supports_(warped_supports(*model_)), region_(region) {
     constexpr std::size_t kChunk = 64;
     const std::size_t groups = model_->supports.group_count();
     std::vector<Plan> plans((groups + kChunk - 1) / kChunk);
@@ -217,7 +218,7 @@ class ModelCells final : public SurfaceCells {
   std::optional<double> search(std::span<const std::uint32_t> primitives, const Ray& ray, const Interval& range,
                                double tolerance, double precision, bool any, FieldProgram& rest) const {
     thread_local LineMeeting meeting;
-    meet(*model_, primitives, ray, range, meeting);
+    meet(*model_, warped_supports_, primitives, ray, range, meeting);
     const Interval reach = meeting.reach;
     if (reach.empty() || (model_->is_below_sum && meeting.highest_sum < kIsoValue)) return std::nullopt;
     thread_local FieldProgram met;
@@ -239,6 +240,7 @@ class ModelCells final : public SurfaceCells {
   }
 
   ModelPtr model_;
+  std::vector<Cylinder> warped_supports_;
   Box region_;
   bool is_part_ = false;
   std::vector<Cell> cells_;

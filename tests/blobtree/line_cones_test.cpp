@@ -56,7 +56,7 @@ void check_meeting(const FieldModel& model, const Ray& ray, const Interval& rang
   FieldProgram whole, met, rest;
   assemble(model, all, whole);
   LineMeeting meeting;
-  meet(model, all, ray, range, meeting);
+  meet(model, warped_supports(model), all, ray, range, meeting);
   ++tally.rays;
   tally.met += static_cast<int>(meeting.primitives.size());
   tally.unmet += static_cast<int>(all.size() - meeting.primitives.size());
