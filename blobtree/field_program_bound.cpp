@@ -163,21 +163,29 @@ class Bounder {
   }
 
   void enter(const FieldInstruction& instruction) {
-    const WarpedBox warped = model_.warps[instruction.index].map(box_);
-    warps_.push_back({box_, warped.stretch, warped.curvature, warped.jump, rest_.size()});
+    const Warp& warp = model_.warps[instruction.index];
+    if (meeting_ && warps_.empty()) {
+      enter_along(warp);
+    } else {
+      const WarpedBox warped = warp.map(box_);
+      warps_.push_back({box_, warped.stretch, warped.curvature, warped.jump, rest_.size()});
+      box_ = warped.box;
+    }
     rest_.push_back(instruction);
-    box_ = warped.box;
-    if (meeting_ && warps_.size() == 1) find_chord(model_.warps[instruction.index], warped);
   }
 
   // Under a warp the ray's piece is a curve; it stays near the chord of its ends.
-  void find_chord(const Warp& warp, const WarpedBox& warped) {
-    const Vec3 a = warp.map(ray_->at(range_.lo)), b = warp.map(ray_->at(range_.hi));
-    const double length = range_.hi - range_.lo, chord = glm::distance(a, b);
-    chord_slack_ = 0.25 * warped.jump * length + 0.125 * warped.curvature * length * length;
+  void enter_along(const Warp& warp) {
+    const WarpedPiece piece = warp.map(ray_->at(range_.lo), ray_->at(range_.hi));
+    const double length = range_.hi - range_.lo, chord = glm::distance(piece.from, piece.to);
+    chord_slack_ = 0.25 * piece.jump * length + 0.125 * piece.curvature * length * length;
     if (!(chord > 0)) chord_slack_ = std::numeric_limits<double>::infinity();
-    chord_ = {a, (b - a) / chord};
+    chord_ = {piece.from, (piece.to - piece.from) / chord};
     chord_range_ = {0, chord};
+    warps_.push_back({box_, piece.stretch, piece.curvature, piece.jump, rest_.size()});
+    box_ = std::isfinite(chord_slack_)
+               ? grown({glm::min(piece.from, piece.to), glm::max(piece.from, piece.to)}, chord_slack_)
+               : warp.map(box_).box;
   }
 
   void leave(const FieldInstruction& instruction) {

@@ -153,6 +153,34 @@ WarpedBox Warp::map_local(const BendData& d, const Box& box) {
   return result;
 }
 
+// Along a line the polar angle rises or falls, so that the ends tell where on the arc the piece is.
+WarpedPiece Warp::map_local(const BendData& d, const Vec3& from, const Vec3& to) {
+  WarpedPiece result{map_local(d, from).point, map_local(d, to).point};
+  const glm::dvec2 center(0.5 * d.chord, -d.arc_radius * std::cos(d.half_angle));
+  const glm::dvec2 a = glm::dvec2(from) - center, way = glm::dvec2(to) - glm::dvec2(from);
+  const double way2 = glm::dot(way, way);
+  const double t = way2 > 0 ? std::clamp(-glm::dot(a, way) / way2, 0.0, 1.0) : 0.0;
+  const double rho_lo = glm::length(a + t * way), rho_hi = std::max(glm::length(a), glm::length(a + way));
+  const double nearest = std::max({rho_lo, d.arc_radius - d.reach, 1e-9 * d.arc_radius});
+  // Behind the centre the angle jumps from one end to the other.
+  const bool may_pass_behind = a.x * (a.x + way.x) <= 0 && std::min(a.y, a.y + way.y) <= 0;
+  const auto lies_straight = [&](const auto& past) {
+    return !may_pass_behind && past(result.from.x) && past(result.to.x);
+  };
+  if (lies_straight([](double x) { return x < 0; }) || lies_straight([&](double x) { return x > d.arc; })) {
+    result.curvature = 0;
+    return result;
+  }
+  // Nearer to the centre than the child reaches, the field is zero.
+  result.stretch = std::max(1.0, d.arc_radius / nearest);
+  result.curvature = std::sqrt(1 + result.stretch * result.stretch) / nearest;
+  const bool is_within = std::min(result.from.x, result.to.x) >= 0 && std::max(result.from.x, result.to.x) <= d.arc;
+  if (may_pass_behind || !is_within) {
+    result.jump = 2 * std::max(result.stretch - 1, 1 - d.arc_radius / std::max(rho_hi, nearest));
+  }
+  return result;
+}
+
 Box Warp::support_local(const BendData& d, const Box& box) {
   // Straight parts move rigidly; the arc with all that reaches out from it stays within a box around the sector.
   const double center_height = -d.arc_radius * std::cos(d.half_angle);
@@ -292,6 +320,17 @@ WarpedBox Warp::map(const Box& box) const {
         }
       },
       data_);
+}
+
+WarpedPiece Warp::map(const Vec3& from, const Vec3& to) const {
+  if (const BendData* bend = std::get_if<BendData>(&data_)) {
+    WarpedPiece piece = map_local(*bend, bend->frame.to_local(from), bend->frame.to_local(to));
+    piece.from = bend->frame.to_world(piece.from);
+    piece.to = bend->frame.to_world(piece.to);
+    return piece;
+  }
+  const WarpedBox box = map({glm::min(from, to), glm::max(from, to)});
+  return {map(from), map(to), box.stretch, box.curvature, box.jump};
 }
 
 Box Warp::bent_support(const Box& local) const { return support_local(std::get<BendData>(data_), local); }

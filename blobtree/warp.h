@@ -25,6 +25,14 @@ struct WarpedBox {
   double jump = 0;
 };
 
+/// Where the ends of a piece of a line come from, and what WarpedBox says, on the piece.
+struct WarpedPiece {
+  Vec3 from{0}, to{0};
+  double stretch = 1;
+  double curvature = std::numeric_limits<double>::infinity();
+  double jump = 0;
+};
+
 /// A warp prepared for evaluation. `reach` is how far the child's field extends from the warp's axis: only bends use
 /// it, whose stretch is bounded where the child is.
 class Warp {
@@ -51,6 +59,7 @@ class Warp {
   Vec3 map(const Vec3& p) const { return map_with_jacobian(p).point; }
   WarpedPoint map_with_jacobian(const Vec3& p) const;
   WarpedBox map(const Box& box) const;
+  WarpedPiece map(const Vec3& from, const Vec3& to) const;
   /// The bend, if it is one: bends have kernels of their own [blobtree/bend_kernels.h].
   const BendData* bend() const { return std::get_if<BendData>(&data_); }
   /// A box that holds every p with w(p) in `child_support`.
@@ -79,6 +88,7 @@ class Warp {
   static WarpedPoint map_local(const TwistData& data, const Vec3& q);
   static WarpedPoint map_local(const TaperData& data, const Vec3& q);
   static WarpedBox map_local(const BendData& data, const Box& box);
+  static WarpedPiece map_local(const BendData& data, const Vec3& from, const Vec3& to);
   static WarpedBox map_local(const TwistData& data, const Box& box);
   static WarpedBox map_local(const TaperData& data, const Box& box);
   static Box support_local(const BendData& data, const Box& box);
