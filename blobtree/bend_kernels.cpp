@@ -59,7 +59,7 @@ struct Polar {
 };
 
 HWY_INLINE Polar polar(const Warp::BendData& bend, Vec a, Vec b) {
-  const Vec sine = constant(std::sin(bend.half_angle)), cosine = constant(std::cos(bend.half_angle));
+  const Vec sine = constant(bend.sine), cosine = constant(bend.cosine);
   Polar p{a, b, hn::Sqrt(hn::MulAdd(a, a, hn::Mul(b, b))), {}, {}, {}};
   p.is_past = hn::Gt(hn::Mul(cosine, hn::Abs(a)), hn::Mul(sine, b));
   const Vec inverse = hn::Div(constant(1), hn::Max(p.rho, constant(1e-30)));
@@ -71,7 +71,7 @@ HWY_INLINE Polar polar(const Warp::BendData& bend, Vec a, Vec b) {
 // Where a batch's origin lies in the bend's frame, from the arc's centre.
 HWY_INLINE Vec3 origin_from_center(const Warp::BendData& bend, double scale, const Vec3& origin) {
   const Vec3 local = bend.frame.to_local(origin);
-  return scale * Vec3(local.x - 0.5 * bend.chord, local.y + bend.arc_radius * std::cos(bend.half_angle), local.z);
+  return scale * Vec3(local.x - 0.5 * bend.chord, local.y - bend.center_height, local.z);
 }
 
 void BendPoints(const Warp::BendData& bend, double scale, const PointBatch& from, const PointBatch& to) {

@@ -81,26 +81,29 @@ Warp::Warp(const Bend& bend, const Box& child_support) {
   const double arc_radius = chord / (2 * std::sin(half_angle));
   const Box local = child_support.empty() ? Box{Vec3(0), Vec3(0)} : frame.to_local(child_support);
   const double reach = distance_range({local.lo.y, local.hi.y}, {local.lo.z, local.hi.z}).hi;
-  data_ = BendData{frame, half_angle, arc_radius, 2 * half_angle * arc_radius, chord, reach};
+  const double sine = std::sin(half_angle), cosine = std::cos(half_angle);
+  data_ = BendData{frame, half_angle, arc_radius, 2 * half_angle * arc_radius, chord,
+                   reach, sine,       cosine,     -arc_radius * cosine};
 }
 
 WarpedPoint Warp::map_local(const BendData& d, const Vec3& q) {
   const double a = q.x - 0.5 * d.chord;
-  const double b = q.y + d.arc_radius * std::cos(d.half_angle);
+  const double b = q.y - d.center_height;
   const double angle = std::atan2(a, b);
   const double turn = std::clamp(angle, -d.half_angle, d.half_angle);
-  const double sine = std::sin(turn), cosine = std::cos(turn);
-  // Coordinates in the frame that has turned with the arc: `along` its tangent, `out` from its centre.
-  const double along = cosine * a - sine * b;
-  const double out = sine * a + cosine * b;
   const double axial = d.arc_radius * (turn + d.half_angle);
   WarpedPoint result;
   if (turn == angle) {
     const double rho = std::hypot(a, b);
+    const double sine = rho > 0 ? a / rho : 0.0, cosine = rho > 0 ? b / rho : 1.0;
     const double stretch = rho > 0 ? d.arc_radius / rho : 1.0;
     result.point = {axial, rho - d.arc_radius, q.z};
     result.jacobian = Mat3(Vec3(stretch * cosine, sine, 0), Vec3(-stretch * sine, cosine, 0), Vec3(0, 0, 1));
   } else {
+    // Coordinates in the frame that has turned with the arc: `along` its tangent, `out` from its centre.
+    const double sine = turn < 0 ? -d.sine : d.sine, cosine = d.cosine;
+    const double along = cosine * a - sine * b;
+    const double out = sine * a + cosine * b;
     result.point = {axial + along, out - d.arc_radius, q.z};
     result.jacobian = Mat3(Vec3(cosine, sine, 0), Vec3(-sine, cosine, 0), Vec3(0, 0, 1));
   }
@@ -108,7 +111,7 @@ WarpedPoint Warp::map_local(const BendData& d, const Vec3& q) {
 }
 
 WarpedBox Warp::map_local(const BendData& d, const Box& box) {
-  const double center_height = -d.arc_radius * std::cos(d.half_angle);
+  const double center_height = d.center_height;
   const Interval a{box.lo.x - 0.5 * d.chord, box.hi.x - 0.5 * d.chord};
   const Interval b{box.lo.y - center_height, box.hi.y - center_height};
   // Polar angles of a rectangle that leaves out the centre and the cut behind it lie between those of its corners.
@@ -156,7 +159,7 @@ WarpedBox Warp::map_local(const BendData& d, const Box& box) {
 // Along a line the polar angle rises or falls, so that the ends tell where on the arc the piece is.
 WarpedPiece Warp::map_local(const BendData& d, const Vec3& from, const Vec3& to) {
   WarpedPiece result{map_local(d, from).point, map_local(d, to).point};
-  const glm::dvec2 center(0.5 * d.chord, -d.arc_radius * std::cos(d.half_angle));
+  const glm::dvec2 center(0.5 * d.chord, d.center_height);
   const glm::dvec2 a = glm::dvec2(from) - center, way = glm::dvec2(to) - glm::dvec2(from);
   const double way2 = glm::dot(way, way);
   const double t = way2 > 0 ? std::clamp(-glm::dot(a, way) / way2, 0.0, 1.0) : 0.0;
@@ -183,7 +186,7 @@ WarpedPiece Warp::map_local(const BendData& d, const Vec3& from, const Vec3& to)
 
 Box Warp::support_local(const BendData& d, const Box& box) {
   // Straight parts move rigidly; the arc with all that reaches out from it stays within a box around the sector.
-  const double center_height = -d.arc_radius * std::cos(d.half_angle);
+  const double center_height = d.center_height;
   Box result;
   if (box.hi.x >= 0 && box.lo.x <= d.arc) {
     const double lo = std::max(0.0, d.arc_radius + box.lo.y), hi = std::max(0.0, d.arc_radius + box.hi.y);

@@ -49,6 +49,8 @@ class Warp {
   struct BendData {
     Framed frame;  // origin at the base, x along the chord, y towards the bulge
     double half_angle, arc_radius, arc, chord, reach;
+    double sine, cosine;   // of the half angle
+    double center_height;  // of the arc's centre, in the frame
   };
 
   Warp(const Bend& bend, const Box& child_support);

@@ -24,4 +24,13 @@ Ray CameraRays::through(double x, double y) const {
   return {position_ + offset, view_};
 }
 
+std::optional<glm::dvec2> CameraRays::place_of(const Vec3& point) const {
+  const Vec3 offset = point - position_;
+  const double depth = glm::dot(offset, view_);
+  if (perspective_ && !(depth > 1e-6 * glm::length(offset))) return std::nullopt;
+  const double half2 = glm::dot(right_, right_) * (perspective_ ? depth : 1);
+  const double across = glm::dot(offset, right_) / half2, down = glm::dot(offset, down_) / half2;
+  return glm::dvec2(0.5 * (across * height_ + width_), 0.5 * (down + 1) * height_);
+}
+
 }  // namespace barkridge

@@ -1,6 +1,10 @@
 #pragma once
 // From places in the picture to rays.
 
+#include <optional>
+
+#include <glm/vec2.hpp>
+
 #include "raytrace/render.h"
 
 namespace barkridge {
@@ -13,6 +17,9 @@ class CameraRays {
   /// The ray through a place in the picture, in pixels to the right of and below its top left corner. Perspective
   /// rays start at the camera's position, orthographic ones on the plane through it across the view.
   Ray through(double x, double y) const;
+
+  /// Where in the picture a point is seen; nothing for points that are not before the camera.
+  std::optional<glm::dvec2> place_of(const Vec3& point) const;
 
  private:
   bool perspective_;

@@ -29,13 +29,14 @@ PathTracer::PathTracer(const Tracer& tracer, const RenderScene& scene, int bounc
   haze_radius_ = kHazeRadius * (box.empty() ? glm::length(to_target) : box.diagonal());
 }
 
-std::optional<PathTracer::Surface> PathTracer::find_surface(const Ray& ray, const Scattering& bark) const {
+std::optional<PathTracer::Surface> PathTracer::find_surface(const Ray& ray, const Scattering& bark,
+                                                            bool meets_solid) const {
   double t_ground = std::numeric_limits<double>::infinity();
   if (scene_.ground.enabled && ray.direction.y != 0) {
     const double t = (scene_.ground.height - ray.origin.y) / ray.direction.y;
     if (t > 0) t_ground = t;
   }
-  if (const std::optional<Hit> hit = tracer_.first_hit(ray, 0, t_ground)) {
+  if (const std::optional<Hit> hit = meets_solid ? tracer_.first_hit(ray, 0, t_ground) : std::nullopt) {
     // Rounding may turn a grazed normal away from the ray; bend it back.
     Vec3 normal = hit->normal;
     const double facing = -glm::dot(normal, ray.direction);
@@ -71,7 +72,7 @@ Color PathTracer::from_surroundings(const Surface& surface, const Vec3& view, co
       surface.scattering->sample(surface.normal, view, sampler.pair(sample, Dimension::kBounce), choice);
   if (!scattered) return Color(0);
   const Color background = sky_radiance(scene_.sky, scattered->direction);
-  const std::optional<Surface> second = find_surface({surface.start, scattered->direction}, dull_bark_);
+  const std::optional<Surface> second = find_surface({surface.start, scattered->direction}, dull_bark_, true);
   if (!second) return scattered->weight * background;
 
   const Color sky = (second->is_ground ? 1 : kSecondSkyShare) * sky_average_ * second->scattering->albedo();
@@ -79,9 +80,14 @@ Color PathTracer::from_surroundings(const Surface& surface, const Vec3& view, co
   return scattered->weight * glm::mix(sky + sun, background, second->haze);
 }
 
-Radiance PathTracer::along(const Ray& ray, const PixelSampler& sampler, int sample) const {
+std::optional<Radiance> PathTracer::plain_background() const {
+  if (scene_.ground.enabled || scene_.sky.intensity > 0) return std::nullopt;
+  return Radiance{};
+}
+
+Radiance PathTracer::along(const Ray& ray, const PixelSampler& sampler, int sample, bool meets_solid) const {
   const Radiance background{sky_radiance(scene_.sky, ray.direction), scene_.sky.intensity > 0 ? 1.0 : 0.0};
-  const std::optional<Surface> surface = find_surface(ray, bark_);
+  const std::optional<Surface> surface = find_surface(ray, bark_, meets_solid);
   if (!surface) return background;
   const Vec3 view = -ray.direction;
   const Color color = from_sun(*surface, view, sampler.pair(sample, Dimension::kSun)) +

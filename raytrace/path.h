@@ -23,8 +23,12 @@ class PathTracer {
  public:
   PathTracer(const Tracer& tracer, const RenderScene& scene, int bounces);
 
-  /// One sample of what arrives at the ray's origin from its direction.
-  Radiance along(const Ray& ray, const PixelSampler& sampler, int sample) const;
+  /// One sample of what arrives at the ray's origin from its direction. `meets_solid` is false only where it is known
+  /// that the ray itself meets nothing of the solid.
+  Radiance along(const Ray& ray, const PixelSampler& sampler, int sample, bool meets_solid) const;
+
+  /// What arrives along all rays that meet nothing of the solid, if that is the same for all.
+  std::optional<Radiance> plain_background() const;
 
  private:
   struct Surface {
@@ -35,7 +39,7 @@ class PathTracer {
     double haze = 0;  // share of the background in front of it
   };
 
-  std::optional<Surface> find_surface(const Ray& ray, const Scattering& bark) const;
+  std::optional<Surface> find_surface(const Ray& ray, const Scattering& bark, bool meets_solid) const;
   Color from_sun(const Surface& surface, const Vec3& view, const glm::dvec2& u) const;
   Color from_surroundings(const Surface& surface, const Vec3& view, const PixelSampler& sampler, int sample) const;
   bool lit_from(const Vec3& start, const Vec3& direction) const;

@@ -11,6 +11,7 @@
 #include "raytrace/camera.h"
 #include "raytrace/path.h"
 #include "raytrace/sampler.h"
+#include "raytrace/seen_pixels.h"
 #include "raytrace/tracer.h"
 
 namespace barkridge {
@@ -55,17 +56,18 @@ struct PixelSum {
 
 class TileRenderer {
  public:
-  TileRenderer(const Tracer& tracer, const RenderScene& scene, const RenderOptions& options)
+  TileRenderer(const Tracer& tracer, const RenderScene& scene, const RenderOptions& options, const PixelRegion& region)
       : options_(options),
         camera_(scene.camera, options.width, options.height),
         path_(tracer, scene, options.bounces),
-        layout_(options.seed, options.width, options.height, options.samples_per_pixel) {}
+        layout_(options.seed, options.width, options.height, options.samples_per_pixel),
+        seen_(tracer.cells(), camera_, with_neighbours(region)),
+        plain_background_(path_.plain_background()) {}
 
   // Renders the pixels of `tile`, and the first samples of those around it, which decide about further ones.
   void render(const PixelRegion& tile, Image& image) const {
-    const int around = options_.samples_per_pixel > kFirstSamples ? 1 : 0;
-    const int x0 = std::max(0, tile.x - around), x1 = std::min(options_.width, tile.x + tile.width + around);
-    const int y0 = std::max(0, tile.y - around), y1 = std::min(options_.height, tile.y + tile.height + around);
+    const PixelRegion sampled = options_.samples_per_pixel > kFirstSamples ? with_neighbours(tile) : tile;
+    const int x0 = sampled.x, x1 = sampled.x + sampled.width, y0 = sampled.y, y1 = sampled.y + sampled.height;
     const std::size_t stride = static_cast<std::size_t>(x1 - x0);
     std::vector<PixelSum> first(stride * static_cast<std::size_t>(y1 - y0));
     const auto at = [&](int x, int y) -> PixelSum& {
@@ -93,13 +95,25 @@ class TileRenderer {
   }
 
  private:
+  PixelRegion with_neighbours(const PixelRegion& region) const {
+    const int x = std::max(0, region.x - 1), y = std::max(0, region.y - 1);
+    return {x, y, std::min(options_.width, region.x + region.width + 1) - x,
+            std::min(options_.height, region.y + region.height + 1) - y};
+  }
+
   // Goes on until there are `count` samples, or as many as allowed.
   void add_samples(int x, int y, int count, PixelSum& sum) const {
+    const int wanted = std::min(count, options_.samples_per_pixel);
+    const bool meets_solid = seen_.may_see(x, y);
+    if (!meets_solid && plain_background_) {
+      while (sum.count < wanted) sum.add(*plain_background_);
+      return;
+    }
     const PixelSampler sampler(layout_, x, y);
-    while (sum.count < std::min(count, options_.samples_per_pixel)) {
+    while (sum.count < wanted) {
       const glm::dvec2 u = sampler.pair(sum.count, Dimension::kPixel);
       const Ray ray = camera_.through(x + 0.5 + tent(u.x), y + 0.5 + tent(u.y));
-      sum.add(path_.along(ray, sampler, sum.count));
+      sum.add(path_.along(ray, sampler, sum.count, meets_solid));
     }
   }
 
@@ -118,6 +132,8 @@ class TileRenderer {
   CameraRays camera_;
   PathTracer path_;
   SampleLayout layout_;
+  SeenPixels seen_;
+  std::optional<Radiance> plain_background_;
 };
 
 // Tells how much is done, from one thread at a time.
@@ -150,7 +166,7 @@ Image render(const Field& field, const RenderScene& scene, const RenderOptions& 
   image.rgba.resize(4 * pixels);
 
   const Tracer tracer(field, options.progress);
-  const TileRenderer renderer(tracer, scene, options);
+  const TileRenderer renderer(tracer, scene, options, region);
   SharedProgress progress(options.progress, pixels);
   const tbb::blocked_range2d<int> tiles(0, (region.height + kTileSize - 1) / kTileSize, 1, 0,
                                         (region.width + kTileSize - 1) / kTileSize, 1);

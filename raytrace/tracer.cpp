@@ -149,6 +149,7 @@ Tracer::~Tracer() = default;
 Tracer::Tracer(Tracer&&) noexcept = default;
 Tracer& Tracer::operator=(Tracer&&) noexcept = default;
 
+const SurfaceCells& Tracer::cells() const { return *scene_->cells; }
 const Box& Tracer::scene_box() const { return scene_->support; }
 double Tracer::tolerance() const { return scene_->tolerance; }
 

@@ -42,6 +42,7 @@ class Tracer {
   /// Whether `first_hit` would find something. Cheaper.
   bool occluded(const Ray& ray, double t_min = 0, double t_max = std::numeric_limits<double>::infinity()) const;
 
+  const SurfaceCells& cells() const;
   /// A box that holds the solid; empty when there is none.
   const Box& scene_box() const;
   /// 6e-8 of the diagonal of the field's support.
