@@ -9,8 +9,10 @@ namespace barkridge {
 
 namespace {
 
-std::optional<double> search(const Field& field, const Ray& ray, const Interval& range, double tolerance,
-                             double precision, bool any) {
+// Where on a ray does not matter.
+constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+
+std::optional<double> search(const Field& field, const Ray& ray, const Interval& range, double tolerance, bool any) {
   const Vec3 a = ray.at(range.lo), b = ray.at(range.hi);
   const FieldBounds bounds = field.bounds({glm::min(a, b), glm::max(a, b)});
   if (bounds.value.hi < kIsoValue) return std::nullopt;
@@ -18,18 +20,16 @@ std::optional<double> search(const Field& field, const Ray& ray, const Interval&
   constexpr double kMostVariation = 8;
   const double length = range.hi - range.lo, middle = 0.5 * (range.lo + range.hi);
   if (bounds.slope * length > kMostVariation && length > 2 * tolerance) {
-    const std::optional<double> first = search(field, ray, {range.lo, middle}, tolerance, precision, any);
-    return first ? first : search(field, ray, {middle, range.hi}, tolerance, precision, any);
+    const std::optional<double> first = search(field, ray, {range.lo, middle}, tolerance, any);
+    return first ? first : search(field, ray, {middle, range.hi}, tolerance, any);
   }
-  const auto sample = [&](const Interval& part, std::array<float, 16>& samples) {
+  const auto sample = [&](const Interval& part, std::array<double, 16>& values) {
     std::array<Vec3, 16> points;
-    std::array<double, 16> values;
     const double step = (part.hi - part.lo) / static_cast<double>(points.size() - 1);
     for (std::size_t i = 0; i < points.size(); ++i) points[i] = ray.at(part.lo + static_cast<double>(i) * step);
     field.values(points, values);
-    std::transform(values.begin(), values.end(), samples.begin(), [](double f) { return static_cast<float>(f); });
   };
-  return RaySearch(sample, bounds, tolerance, precision, any).run(range);
+  return RaySearch<double, decltype(sample)>(sample, bounds, tolerance, any ? kAnywhere : tolerance, any).run(range);
 }
 
 // The whole support as one cell.
@@ -44,16 +44,17 @@ class SingleCell final : public SurfaceCells {
                                            double tolerance) const override {
     const Interval part = clip(ray, box_, range);
     if (part.empty()) return std::nullopt;
-    const std::optional<double> t = search(*field_, ray, part, tolerance, kCoarseness * tolerance, false);
+    const std::optional<double> t = search(*field_, ray, part, tolerance, false);
     if (!t) return std::nullopt;
-    return polished(ray, *t, part, tolerance, [&](const Vec3& point, double& value, Vec3& gradient) {
-      field_->values_and_gradients({&point, 1}, {&value, 1}, {&gradient, 1});
-    });
+    const Vec3 point = ray.at(*t);
+    double value = 0;
+    Vec3 gradient{0};
+    field_->values_and_gradients({&point, 1}, {&value, 1}, {&gradient, 1});
+    return SurfacePoint{*t, gradient};
   }
   bool any_inside(std::size_t, const Ray& ray, const Interval& range, double tolerance) const override {
     const Interval part = clip(ray, box_, range);
-    constexpr double kAnywhere = std::numeric_limits<double>::infinity();
-    return !part.empty() && search(*field_, ray, part, tolerance, kAnywhere, true).has_value();
+    return !part.empty() && search(*field_, ray, part, tolerance, true).has_value();
   }
 
  private:

@@ -65,6 +65,14 @@ std::size_t FieldModel::memory() const {
          warps.capacity() * sizeof(Warp);
 }
 
+bool is_warped(const FieldModel& model, std::uint32_t sum) {
+  if (model.warps.empty()) return false;
+  for (std::uint32_t at = model.operators[sum].kept_above; at != kNoOperator; at = model.operators[at].kept_above) {
+    if (model.operators[at].op == FieldInstruction::Op::kEnterWarp) return true;
+  }
+  return false;
+}
+
 bool only_takes_away(const FieldModel& model, std::uint32_t sum) {
   const FieldOperator* node = &model.operators[sum];
   bool takes_away = false;

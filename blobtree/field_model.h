@@ -85,6 +85,9 @@ std::shared_ptr<const FieldModel> compile_model(const BlobTree& tree);
 /// the program.
 void assemble(const FieldModel& model, std::span<const std::uint32_t> primitives, FieldProgram& program);
 
+/// Whether any operator above a sum moves its primitives.
+bool is_warped(const FieldModel& model, std::uint32_t sum);
+
 /// Whether the primitives of a sum can only lower the field: they stand where something is taken away.
 bool only_takes_away(const FieldModel& model, std::uint32_t sum);
 

@@ -359,7 +359,7 @@ std::optional<double> search_along(const FieldModel& model, const FieldProgram& 
     machine.run(kSamples);
     std::copy_n(machine.result().f, kSamples, values.begin());
   };
-  return RaySearch(sample, bounds, tolerance, precision, any).run(range);
+  return RaySearch<float, decltype(sample)>(sample, bounds, tolerance, precision, any).run(range);
 }
 
 }  // namespace barkridge

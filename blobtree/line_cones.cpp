@@ -1,7 +1,5 @@
 #include "blobtree/line_cones.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -56,15 +54,6 @@ void place(const Cylinder& cylinder, const Vec3& origin, const ModelUnits& units
   columns.is_unknown[lane] = 1;
 }
 
-// Whether any operator above a sum changes the points.
-bool is_warped(const FieldModel& model, std::uint32_t sum) {
-  if (model.warps.empty()) return false;
-  for (std::uint32_t at = model.operators[sum].kept_above; at != kNoOperator; at = model.operators[at].kept_above) {
-    if (model.operators[at].op == FieldInstruction::Op::kEnterWarp) return true;
-  }
-  return false;
-}
-
 ConeBounds bounds_at(const ConesMet& met, std::size_t lane, double scale) {
   const auto unit = [](float x) { return static_cast<double>(x); };
   return {{{0, unit(met.highest[lane])},
@@ -74,14 +63,6 @@ ConeBounds bounds_at(const ConesMet& met, std::size_t lane, double scale) {
 }
 
 }  // namespace
-
-std::vector<Cylinder> warped_supports(const FieldModel& model) {
-  std::vector<Cylinder> supports(model.warps.empty() ? 0 : model.cones.size());
-  tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(supports.size()), [&](std::uint32_t i) {
-    if (is_warped(model, model.sums[i])) supports[i] = support_cylinder(model, i);
-  });
-  return supports;
-}
 
 void meet(const FieldModel& model, std::span<const Cylinder> supports, std::span<const std::uint32_t> primitives,
           const Ray& ray, const Interval& range, LineMeeting& meeting) {

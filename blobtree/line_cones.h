@@ -23,12 +23,9 @@ struct LineMeeting {
   std::vector<ConeBounds> cones;
 };
 
-/// What a piece of a ray meets of some primitives, which are given in rising order. `supports` has the cylinder around
-/// each of the model's primitives that a warp moves, in its place; it is empty if there are no warps.
+/// What a piece of a ray meets of some primitives, which are given in rising order. `supports` has a cylinder around
+/// each of the model's primitives; it may be empty if there are no warps.
 void meet(const FieldModel& model, std::span<const Cylinder> supports, std::span<const std::uint32_t> primitives,
           const Ray& ray, const Interval& range, LineMeeting& meeting);
-
-/// Those cylinders. Cost: in proportion to the model.
-std::vector<Cylinder> warped_supports(const FieldModel& model);
 
 }  // namespace barkridge

@@ -6,9 +6,9 @@
 
 #include <tbb/parallel_for.h>
 
+#include "base/large_room.h"
 #include "blobtree/falloff.h"
 #include "blobtree/line_cones.h"
-#include "blobtree/ray_search.h"
 #include "blobtree/tube.h"
 
 namespace barkridge {
@@ -55,36 +55,73 @@ struct Plan {
   std::vector<std::uint32_t> primitives;
 };
 
+// Boxes side by side, so that a loop over them has no branch.
+class BoxColumns {
+ public:
+  void clear() {
+    for (std::vector<float>& column : columns_) column.clear();
+  }
+  void add(const Box& box) {
+    for (int k = 0; k < 3; ++k) {
+      columns_[static_cast<std::size_t>(k)].push_back(static_cast<float>(box.lo[k]));
+      columns_[static_cast<std::size_t>(k) + 3].push_back(static_cast<float>(box.hi[k]));
+    }
+  }
+  /// Whether each overlaps a box; all are of floats.
+  void find_overlapping(const Box& box, std::vector<std::uint8_t>& overlaps) const {
+    overlaps.assign(columns_[0].size(), 1);
+    for (int k = 0; k < 3; ++k) {
+      const auto lo = static_cast<float>(box.lo[k]), hi = static_cast<float>(box.hi[k]);
+      const std::vector<float>&los = columns_[static_cast<std::size_t>(k)],
+            &his = columns_[static_cast<std::size_t>(k) + 3];
+      for (std::size_t i = 0; i < overlaps.size(); ++i) {
+        overlaps[i] &=
+            static_cast<std::uint8_t>(static_cast<unsigned>(los[i] <= hi) & static_cast<unsigned>(lo <= his[i]));
+      }
+    }
+  }
+
+ private:
+  std::array<std::vector<float>, 6> columns_;
+};
+
 // Plans the cells of primitives that are neighbours in space.
 class Planner {
  public:
-  Planner(const FieldModel& model, const Box& region) : model_(model), region_(region) {}
+  Planner(const FieldModel& model, std::span<const Cylinder> supports, const Box& region)
+      : model_(model), supports_(supports), region_(region) {}
 
   void plan(std::span<const std::uint32_t> neighbours, Plan& plan) {
     Box around;
-    for (const std::uint32_t primitive : neighbours) around = unite(around, model_.supports.box(primitive));
+    for (const std::uint32_t primitive : neighbours) around = unite(around, box_of_cells(primitive));
     around = intersect(around, region_);
     if (around.empty()) return;
-    numbers_.clear();
-    model_.supports.find(around, model_.cones.size(), numbers_);
     all_.clear();
-    for (const std::uint32_t number : numbers_) all_.push_back({number, support_cylinder(model_, number)});
+    model_.supports.find(around, model_.cones.size(), all_);
+    boxes_.clear();
+    for (const std::uint32_t number : all_) boxes_.add(model_.supports.box(number));
     for (const std::uint32_t primitive : neighbours) plan_primitive(primitive, plan);
   }
 
  private:
-  struct Candidate {
-    std::uint32_t number;
-    Cylinder support;
-  };
+  // Holds all cells of a primitive. Cylinders around parts of what is bent may reach out of that around the whole, by
+  // less than its radius.
+  Box box_of_cells(std::uint32_t primitive) const {
+    const Cylinder& support = supports_[primitive];
+    const Box box = box_around(support);
+    return is_warped(model_, model_.sums[primitive]) ? grown(box, support.radius) : box;
+  }
 
   void plan_primitive(std::uint32_t primitive, Plan& plan) {
     const std::uint32_t sum = model_.sums[primitive];
     if (only_takes_away(model_, sum)) return;
-    const Cylinder support = support_cylinder(model_, primitive);
+    const Cylinder& support = supports_[primitive];
+    boxes_.find_overlapping(box_of_cells(primitive), overlaps_);
     near_.clear();
-    std::copy_if(all_.begin(), all_.end(), std::back_inserter(near_),
-                 [&](const Candidate& candidate) { return may_overlap(support, candidate.support); });
+    const bool bends = is_warped(model_, sum);
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      if (overlaps_[i] && (bends || may_overlap(support, supports_[all_[i]]))) near_.push_back(all_[i]);
+    }
     if (model_.other_at(primitive)) return add(support, plan);
     const Tube tube = tube_of(model_.cones[primitive], model_.kinds[primitive], model_.units.scale);
     if (tube.along.empty()) return;
@@ -102,10 +139,8 @@ class Planner {
     std::optional<Cylinder> cylinder = cylinder_of(model_, sum, tube, 1, from, to);
     constexpr int kRounds = 2;
     for (int round = 0; round < kRounds && cylinder && model_.is_below_sum && tube.limit == 0; ++round) {
-      const auto count =
-          static_cast<std::size_t>(std::count_if(near_.begin(), near_.end(), [&](const Candidate& candidate) {
-            return may_overlap(*cylinder, candidate.support);
-          }));
+      const auto count = static_cast<std::size_t>(std::count_if(
+          near_.begin(), near_.end(), [&](std::uint32_t number) { return may_overlap(*cylinder, supports_[number]); }));
       if (count > kMostCounted) break;
       cylinder = cylinder_of(model_, sum, tube, kDistances[std::max<std::size_t>(1, count)], from, to);
     }
@@ -115,34 +150,52 @@ class Planner {
   void add(const Cylinder& cylinder, Plan& plan) const {
     if (!box_around(cylinder).overlaps(region_)) return;
     const std::size_t first = plan.primitives.size();
-    for (const Candidate& candidate : near_) {
-      if (may_overlap(cylinder, candidate.support)) plan.primitives.push_back(candidate.number);
-    }
+    std::copy_if(near_.begin(), near_.end(), std::back_inserter(plan.primitives),
+                 [&](std::uint32_t number) { return may_overlap(cylinder, supports_[number]); });
     plan.cells.push_back(
         {cylinder, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(plan.primitives.size() - first)});
   }
 
   const FieldModel& model_;
+  std::span<const Cylinder> supports_;
   const Box& region_;
-  std::vector<std::uint32_t> numbers_;
-  std::vector<Candidate> all_;   // that may matter to any of the neighbours
-  std::vector<Candidate> near_;  // that may matter to one of them
+  std::vector<std::uint32_t> all_;   // primitives that may matter to any of the neighbours
+  BoxColumns boxes_;                 // around them
+  std::vector<std::uint32_t> near_;  // those that may matter to one of the neighbours
+  std::vector<std::uint8_t> overlaps_;
 };
+
+// What a search is asked for before a step of Newton's method does the rest, in units of the tolerance.
+constexpr double kCoarseness = 16;
+
+// A root on a ray, found to so much, and the gradient there. The step's error is quadratic in what was left.
+SurfacePoint polished(const FieldModel& model, const FieldProgram& program, const Ray& ray, double t,
+                      const Interval& range, double tolerance) {
+  const Vec3 point = ray.at(t);
+  double value = 0;
+  Vec3 gradient{0};
+  evaluate(model, program, {&point, 1}, {&value, 1}, {&gradient, 1});
+  const double step = (kIsoValue - value) / glm::dot(gradient, ray.direction);
+  // A longer one would be due to a ray that grazes, whose root is as good as the field's rounding allows.
+  const bool is_short = std::abs(step) <= kCoarseness * tolerance;
+  return {is_short && t > range.lo ? std::clamp(t + step, range.lo, range.hi) : t, gradient};
+}
 
 class ModelCells final : public SurfaceCells {
  public:
   ModelCells(ModelPtr model, const Box& region)
-      : model_(std::move(model)), warped_supports_(warped_supports(*model_)), region_(region) {
+      : model_(std::move(model)), supports_(support_cylinders(*model_)), region_(region) {
     constexpr std::size_t kChunk = 64;
     const std::size_t groups = model_->supports.group_count();
     std::vector<Plan> plans((groups + kChunk - 1) / kChunk);
     tbb::parallel_for(std::size_t{0}, plans.size(), [&](std::size_t i) {
-      Planner planner(*model_, region_);
+      Planner planner(*model_, supports_, region_);
       for (std::size_t g = i * kChunk; g < std::min(groups, (i + 1) * kChunk); ++g) {
         planner.plan(model_->supports.group(g), plans[i]);
       }
     });
     unite(plans);
+    if (model_->warps.empty()) supports_ = {};  // rays need them only of what is warped
     const Box all = model_->support;
     is_part_ = !region_.contains(all.lo) || !region_.contains(all.hi);
   }
@@ -161,9 +214,7 @@ class ModelCells final : public SurfaceCells {
     const std::optional<double> t =
         search(primitives_of(cells_[cell]), ray, part, tolerance, kCoarseness * tolerance, false, rest);
     if (!t || *t >= limit) return std::nullopt;
-    return polished(ray, *t, part, tolerance, [&](const Vec3& point, double& value, Vec3& gradient) {
-      evaluate(*model_, rest, {&point, 1}, {&value, 1}, {&gradient, 1});
-    });
+    return polished(*model_, rest, ray, *t, part, tolerance);
   }
   bool any_inside(std::size_t cell, const Ray& ray, const Interval& range, double tolerance) const override {
     const Interval part = clip_to_cell(cell, ray, range);
@@ -200,8 +251,8 @@ class ModelCells final : public SurfaceCells {
   void unite(const std::vector<Plan>& plans) {
     std::size_t cells = 0, primitives = 0;
     for (const Plan& plan : plans) cells += plan.cells.size(), primitives += plan.primitives.size();
-    cells_.reserve(cells);
-    primitives_.reserve(primitives);
+    reserve_large(cells_, cells);
+    reserve_large(primitives_, primitives);
     for (const Plan& plan : plans) {
       for (const CellPlan& cell : plan.cells) cells_.emplace_back(cell, primitives_.size());
       primitives_.insert(primitives_.end(), plan.primitives.begin(), plan.primitives.end());
@@ -218,7 +269,7 @@ class ModelCells final : public SurfaceCells {
   std::optional<double> search(std::span<const std::uint32_t> primitives, const Ray& ray, const Interval& range,
                                double tolerance, double precision, bool any, FieldProgram& rest) const {
     thread_local LineMeeting meeting;
-    meet(*model_, warped_supports_, primitives, ray, range, meeting);
+    meet(*model_, supports_, primitives, ray, range, meeting);
     const Interval reach = meeting.reach;
     if (reach.empty() || (model_->is_below_sum && meeting.highest_sum < kIsoValue)) return std::nullopt;
     thread_local FieldProgram met;
@@ -240,7 +291,7 @@ class ModelCells final : public SurfaceCells {
   }
 
   ModelPtr model_;
-  std::vector<Cylinder> warped_supports_;
+  std::vector<Cylinder> supports_;
   Box region_;
   bool is_part_ = false;
   std::vector<Cell> cells_;

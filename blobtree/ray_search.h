@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 
 #include "blobtree/field.h"
@@ -18,11 +17,11 @@ namespace barkridge {
 /// between them is sampled in turn, first pieces first. As the slope bounds F between samples to first order in their
 /// distance and the second derivative to second order, two rounds are enough for most rays that do not graze.
 /// [after Galin et al. 2020, "Segment Tracing Using Local Lipschitz Bounds"]
-template <typename Sample>
+template <typename Real, typename Sample>
 class RaySearch {
  public:
   static constexpr std::size_t kSamples = 16;  // a vector's worth a round
-  using Samples = std::array<float, kSamples>;
+  using Samples = std::array<Real, kSamples>;
 
   RaySearch(const Sample& sample, const FieldBounds& bounds, double tolerance, double precision, bool any)
       : sample_(sample),
@@ -33,7 +32,7 @@ class RaySearch {
         any_(any) {}
 
   std::optional<double> run(const Interval& range) const {
-    constexpr float kIso = static_cast<float>(kIsoValue);
+    constexpr Real kIso = static_cast<Real>(kIsoValue);
     Samples f;
     sample_(range, f);
     if (any_) {
@@ -45,11 +44,11 @@ class RaySearch {
     const double over_mean = 0.5 * slope_ * h, over_larger = -0.125 * lowest_second_ * h * h;
     const bool is_noise = std::min(over_mean, over_larger) < kNoise || h <= tolerance_;
     // At least what is reached in each piece.
-    const auto mean_rise = static_cast<float>(over_mean), larger_rise = static_cast<float>(over_larger);
+    const auto mean_rise = static_cast<Real>(over_mean), larger_rise = static_cast<Real>(over_larger);
     Samples highest;
     for (std::size_t i = 0; i < kPieces; ++i) {
-      const float larger = std::max(f[i], f[i + 1]);
-      highest[i] = std::max(std::min(0.5f * (f[i] + f[i + 1]) + mean_rise, larger + larger_rise), larger);
+      const Real larger = std::max(f[i], f[i + 1]);
+      highest[i] = std::max(std::min(Real{0.5} * (f[i] + f[i + 1]) + mean_rise, larger + larger_rise), larger);
     }
     highest[kPieces] = f[kPieces];
     for (std::size_t i = first_above(highest, kSamples); i < kPieces; ++i) {
@@ -82,7 +81,7 @@ class RaySearch {
 
   static std::size_t first_above(const Samples& f, std::size_t none) {
     for (std::size_t i = 0; i < kSamples; ++i) {
-      if (f[i] >= static_cast<float>(kIsoValue)) return i;
+      if (f[i] >= static_cast<Real>(kIsoValue)) return i;
     }
     return none;
   }
@@ -98,21 +97,5 @@ class RaySearch {
   double precision_;
   bool any_;
 };
-
-/// What a search is asked for before `polished` does the rest, in units of the tolerance.
-inline constexpr double kCoarseness = 16;
-
-/// A root on a ray that is exact to `kCoarseness` tolerances, after one step of Newton's method: `sample(point, value,
-/// gradient)` is called there. The step's error is quadratic in what was left. t stays in `range`.
-template <typename Sample>
-SurfacePoint polished(const Ray& ray, double t, const Interval& range, double tolerance, const Sample& sample) {
-  double value = 0;
-  Vec3 gradient{0};
-  sample(ray.at(t), value, gradient);
-  const double step = (kIsoValue - value) / glm::dot(gradient, ray.direction);
-  // A longer one would be due to a ray that grazes, whose root is as good as the field's rounding allows.
-  const bool is_short = std::abs(step) <= kCoarseness * tolerance;
-  return {is_short && t > range.lo ? std::clamp(t + step, range.lo, range.hi) : t, gradient};
-}
 
 }  // namespace barkridge

@@ -1,7 +1,11 @@
 #include "blobtree/tube.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "base/large_room.h"
 
 namespace barkridge {
 
@@ -46,15 +50,26 @@ std::optional<Cylinder> cylinder_of(const FieldModel& model, std::uint32_t sum, 
   return bent;
 }
 
+namespace {
+
 Cylinder support_cylinder(const FieldModel& model, std::uint32_t primitive) {
   if (model.other_at(primitive)) return cylinder_around(model.supports.box(primitive));
-  const Tube tube = tube_of(model.cones[primitive], model.kinds[primitive], model.units.scale);
-  const ConeSupport support = support_of(model.cones[primitive], model.kinds[primitive]);
-  Tube whole = tube;
-  whole.limit = support.lateral / model.units.scale;
+  const ConeRecord& cone = model.cones[primitive];
+  Tube tube = tube_of(cone, model.kinds[primitive], model.units.scale);
+  tube.limit = support_of(cone, model.kinds[primitive]).lateral / model.units.scale;
   const std::optional<Cylinder> cylinder =
-      cylinder_of(model, model.sums[primitive], whole, 1, tube.along.lo, tube.along.hi);
-  return cylinder ? *cylinder : Cylinder{model.cones[primitive].base, {1, 0, 0}, 0, 0};
+      cylinder_of(model, model.sums[primitive], tube, 1, tube.along.lo, tube.along.hi);
+  return cylinder ? *cylinder : Cylinder{cone.base, {1, 0, 0}, 0, 0};
+}
+
+}  // namespace
+
+std::vector<Cylinder> support_cylinders(const FieldModel& model) {
+  std::vector<Cylinder> supports;
+  resize_large(supports, model.cones.size());
+  tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(supports.size()),
+                    [&](std::uint32_t i) { supports[i] = support_cylinder(model, i); });
+  return supports;
 }
 
 }  // namespace barkridge

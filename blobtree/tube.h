@@ -2,6 +2,7 @@
 // A cone and the levels of its field as cylinders around it.
 
 #include <optional>
+#include <vector>
 
 #include "blobtree/cylinder.h"
 #include "blobtree/field_model.h"
@@ -38,7 +39,7 @@ Tube tube_of(const ConeRecord& cone, ConeKind kind, double scale);
 std::optional<Cylinder> cylinder_of(const FieldModel& model, std::uint32_t sum, const Tube& tube, double u, double from,
                                     double to);
 
-/// A cylinder that holds the support of a primitive, in scene units.
-Cylinder support_cylinder(const FieldModel& model, std::uint32_t primitive);
+/// Cylinders that hold the supports of all primitives, in scene units.
+std::vector<Cylinder> support_cylinders(const FieldModel& model);
 
 }  // namespace barkridge

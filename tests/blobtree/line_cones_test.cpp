@@ -5,6 +5,7 @@
 #include "blobtree/cone_kernels.h"
 #include "blobtree/from_skeleton.h"
 #include "blobtree/primitive.h"
+#include "blobtree/tube.h"
 #include "tests/blobtree/instruction_sets.h"
 #include "tests/blobtree/random_trees.h"
 #include "tests/support/skeletons.h"
@@ -56,7 +57,7 @@ void check_meeting(const FieldModel& model, const Ray& ray, const Interval& rang
   FieldProgram whole, met, rest;
   assemble(model, all, whole);
   LineMeeting meeting;
-  meet(model, warped_supports(model), all, ray, range, meeting);
+  meet(model, support_cylinders(model), all, ray, range, meeting);
   ++tally.rays;
   tally.met += static_cast<int>(meeting.primitives.size());
   tally.unmet += static_cast<int>(all.size() - meeting.primitives.size());
