@@ -37,7 +37,7 @@ std::array<double, kMostCounted + 1> level_distances() {
 
 // Cylinders of long slanting tubes fit into boxes but loosely: shorter pieces do better.
 int piece_count(const Tube& tube) {
-  constexpr double kLongest = 5;  // radii
+  constexpr double kLongest = 8;  // radii
   constexpr double kMostPieces = 8;
   Vec3 extent = glm::abs(tube.axis) * (tube.along.hi - tube.along.lo);
   std::sort(&extent.x, &extent.x + 3);
@@ -88,8 +88,8 @@ class BoxColumns {
 // Plans the cells of primitives that are neighbours in space.
 class Planner {
  public:
-  Planner(const FieldModel& model, std::span<const Cylinder> supports, const Box& region)
-      : model_(model), supports_(supports), region_(region) {}
+  Planner(const FieldModel& model, std::span<const Cylinder> supports, const Box& region, bool is_part)
+      : model_(model), supports_(supports), region_(region), is_part_(is_part) {}
 
   void plan(std::span<const std::uint32_t> neighbours, Plan& plan) {
     Box around;
@@ -118,10 +118,11 @@ class Planner {
     const Cylinder& support = supports_[primitive];
     boxes_.find_overlapping(box_of_cells(primitive), overlaps_);
     near_.clear();
-    const bool bends = is_warped(model_, sum);
+    bends_ = is_warped(model_, sum);
     for (std::size_t i = 0; i < all_.size(); ++i) {
-      if (overlaps_[i] && (bends || may_overlap(support, supports_[all_[i]]))) near_.push_back(all_[i]);
+      if (overlaps_[i] && (bends_ || may_overlap(support, supports_[all_[i]]))) near_.push_back(all_[i]);
     }
+    reaching_ = near_;
     if (model_.other_at(primitive)) return add(support, plan);
     const Tube tube = tube_of(model_.cones[primitive], model_.kinds[primitive], model_.units.scale);
     if (tube.along.empty()) return;
@@ -136,32 +137,40 @@ class Planner {
   // The fewer primitives reach a level, the narrower is the one that matters.
   void add_piece(std::uint32_t sum, const Tube& tube, double from, double to, Plan& plan) {
     static const std::array<double, kMostCounted + 1> kDistances = level_distances();
+    reaching_ = near_;
     std::optional<Cylinder> cylinder = cylinder_of(model_, sum, tube, 1, from, to);
     constexpr int kRounds = 2;
     for (int round = 0; round < kRounds && cylinder && model_.is_below_sum && tube.limit == 0; ++round) {
-      const auto count = static_cast<std::size_t>(std::count_if(
-          near_.begin(), near_.end(), [&](std::uint32_t number) { return may_overlap(*cylinder, supports_[number]); }));
-      if (count > kMostCounted) break;
-      cylinder = cylinder_of(model_, sum, tube, kDistances[std::max<std::size_t>(1, count)], from, to);
+      keep_reaching(*cylinder);
+      if (reaching_.size() > kMostCounted) break;
+      cylinder = cylinder_of(model_, sum, tube, kDistances[std::max<std::size_t>(1, reaching_.size())], from, to);
     }
     if (cylinder) add(*cylinder, plan);
   }
 
-  void add(const Cylinder& cylinder, Plan& plan) const {
-    if (!box_around(cylinder).overlaps(region_)) return;
-    const std::size_t first = plan.primitives.size();
-    std::copy_if(near_.begin(), near_.end(), std::back_inserter(plan.primitives),
-                 [&](std::uint32_t number) { return may_overlap(cylinder, supports_[number]); });
+  // Cylinders around narrower levels lie within those around wider ones, unless they are bent.
+  void keep_reaching(const Cylinder& cylinder) {
+    if (bends_) reaching_ = near_;
+    std::erase_if(reaching_, [&](std::uint32_t number) { return !may_overlap(cylinder, supports_[number]); });
+  }
+
+  void add(const Cylinder& cylinder, Plan& plan) {
+    if (is_part_ && !box_around(cylinder).overlaps(region_)) return;
+    keep_reaching(cylinder);
     plan.cells.push_back(
-        {cylinder, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(plan.primitives.size() - first)});
+        {cylinder, static_cast<std::uint32_t>(plan.primitives.size()), static_cast<std::uint32_t>(reaching_.size())});
+    plan.primitives.insert(plan.primitives.end(), reaching_.begin(), reaching_.end());
   }
 
   const FieldModel& model_;
   std::span<const Cylinder> supports_;
   const Box& region_;
-  std::vector<std::uint32_t> all_;   // primitives that may matter to any of the neighbours
-  BoxColumns boxes_;                 // around them
-  std::vector<std::uint32_t> near_;  // those that may matter to one of the neighbours
+  bool is_part_;                         // whether the region leaves out any of the model
+  std::vector<std::uint32_t> all_;       // primitives that may matter to any of the neighbours
+  BoxColumns boxes_;                     // around them
+  std::vector<std::uint32_t> near_;      // those that may matter to one of the neighbours
+  bool bends_ = false;                   // whether that one is warped
+  std::vector<std::uint32_t> reaching_;  // those that reach a part of it
   std::vector<std::uint8_t> overlaps_;
 };
 
@@ -185,19 +194,18 @@ class ModelCells final : public SurfaceCells {
  public:
   ModelCells(ModelPtr model, const Box& region)
       : model_(std::move(model)), supports_(support_cylinders(*model_)), region_(region) {
+    is_part_ = !region_.contains(model_->support.lo) || !region_.contains(model_->support.hi);
     constexpr std::size_t kChunk = 64;
     const std::size_t groups = model_->supports.group_count();
     std::vector<Plan> plans((groups + kChunk - 1) / kChunk);
     tbb::parallel_for(std::size_t{0}, plans.size(), [&](std::size_t i) {
-      Planner planner(*model_, supports_, region_);
+      Planner planner(*model_, supports_, region_, is_part_);
       for (std::size_t g = i * kChunk; g < std::min(groups, (i + 1) * kChunk); ++g) {
         planner.plan(model_->supports.group(g), plans[i]);
       }
     });
     unite(plans);
     if (model_->warps.empty()) supports_ = {};  // rays need them only of what is warped
-    const Box all = model_->support;
-    is_part_ = !region_.contains(all.lo) || !region_.contains(all.hi);
   }
 
   std::size_t size() const override { return cells_.size(); }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/large_room.h"
 
 namespace barkridge {
 
@@ -27,7 +28,8 @@ double srgb_encoded(double linear) {
 std::uint8_t to_byte(double unit) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(unit, 0.0, 1.0))); }
 
 std::vector<std::uint8_t> straight_srgb(const Image& image) {
-  std::vector<std::uint8_t> bytes(image.rgba.size());
+  std::vector<std::uint8_t> bytes;
+  resize_large(bytes, image.rgba.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bytes.size() / 4), [&](const auto& pixels) {
     for (std::size_t i = 4 * pixels.begin(); i < 4 * pixels.end(); i += 4) {
       const double alpha = image.rgba[i + 3];

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <mutex>
 
+#include "base/large_room.h"
 #include "raytrace/camera.h"
 #include "raytrace/path.h"
 #include "raytrace/sampler.h"
@@ -78,13 +79,13 @@ class TileRenderer {
     }
     for (int y = tile.y; y < tile.y + tile.height; ++y) {
       for (int x = tile.x; x < tile.x + tile.width; ++x) {
+        PixelSum sum = at(x, y);
         bool edge = false;
-        for (int v = std::max(y - 1, y0); v <= std::min(y + 1, y1 - 1); ++v) {
+        for (int v = std::max(y - 1, y0); v <= std::min(y + 1, y1 - 1) && sum.count < options_.samples_per_pixel; ++v) {
           for (int u = std::max(x - 1, x0); u <= std::min(x + 1, x1 - 1); ++u) {
             edge = edge || std::abs(at(u, v).mean_shade() - at(x, y).mean_shade()) > kUnlike;
           }
         }
-        PixelSum sum = at(x, y);
         if (edge) add_samples(x, y, kEdgeSamples, sum);
         while (sum.count < options_.samples_per_pixel && sum.error_squared() > kNoiseGoal * kNoiseGoal) {
           add_samples(x, y, 2 * sum.count, sum);
@@ -163,7 +164,7 @@ Image render(const Field& field, const RenderScene& scene, const RenderOptions& 
   if (image.region.width == 0) image.region = {0, 0, options.width, options.height};
   const PixelRegion& region = image.region;
   const std::size_t pixels = static_cast<std::size_t>(region.width) * static_cast<std::size_t>(region.height);
-  image.rgba.resize(4 * pixels);
+  resize_large(image.rgba, 4 * pixels);
 
   const Tracer tracer(field, options.progress);
   const TileRenderer renderer(tracer, scene, options, region);

@@ -22,9 +22,9 @@ using DeviceHandle = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
 using SceneHandle = std::unique_ptr<RTCSceneTy, ReleaseScene>;
 
 // Embree works in floats, so it sees the scene moved to the origin and scaled to half diagonal 1, and rays that start
-// where they enter it. There its errors stay well below this margin, by which boxes are grown and the reach of rays
-// lengthened.
-constexpr double kFloatMargin = 1e-6;
+// where they enter it. There what rounding shifts a box's planes by, along any ray, is a tenth of this margin, by which
+// boxes are grown and the reach of rays lengthened; so Embree need not be robust itself.
+constexpr double kFloatMargin = 2e-6;
 
 // The ray as the callbacks need it, found again through the first member's address. Its origin is where it enters the
 // scene, so that t counts from there and is precise for rays from afar.
@@ -94,7 +94,6 @@ void Tracer::Scene::build() {
   device.reset(rtcNewDevice(nullptr));
   if (!device) throw std::runtime_error("Embree cannot start on this machine");
   embree.reset(rtcNewScene(device.get()));
-  rtcSetSceneFlags(embree.get(), RTC_SCENE_FLAG_ROBUST);
   const RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(cells->size()));
   rtcSetGeometryUserData(geometry, this);
