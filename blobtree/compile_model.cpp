@@ -309,10 +309,10 @@ class ModelCompiler {
     model.sums.shrink_to_fit();
     model.operators.shrink_to_fit();
     model.warps.shrink_to_fit();
-    // No primitive's field exceeds 1, and no contact adds more than that for each of its children.
     model.takes_away = std::any_of(model.operators.begin(), model.operators.end(), [](const FieldOperator& node) {
       return node.op == Op::kNegate || node.op == Op::kDifference;
     });
+    // No primitive's field exceeds 1, and no contact adds more than that for each of its children.
     const auto most = static_cast<double>(model.cones.size());
     model.bounds = {{has_negatives_ ? -most : 0, most}, std::numeric_limits<double>::infinity()};
   }

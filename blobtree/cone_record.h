@@ -24,7 +24,7 @@ struct ModelUnits {
 enum class ConeKind : std::uint8_t {
   kPlain,    ///< a cone with two round caps
   kFaded,    ///< a faded cone
-  kSteady,   ///< either, where no cap or fade is at work; restrictions find out where that is
+  kSteady,   ///< any, where no cap, fade or limit is at work; bounds on a region find out where that is
   kLimited,  ///< a faded cone in whose support a limit of the radius may be at work
 };
 
@@ -55,7 +55,7 @@ double limited_slope(const ConeRecord& cone);
 
 struct ConeBounds {
   FieldBounds field;    ///< of values, and of gradients in scene units
-  bool steady = false;  ///< whether evaluation as kSteady gives the same bits as the record's kind, all over the box
+  bool steady = false;  ///< whether evaluation as kSteady gives the same bits as the record's kind, all over the region
 };
 
 /// Conservative for what evaluation in single precision makes of the formulas, and exact to first order in the box's
@@ -70,7 +70,8 @@ struct ConeSupport {
 };
 ConeSupport support_of(const ConeRecord& cone, ConeKind kind);
 
-/// Those along a piece of a ray, and all curves that stay within `slack` of it, point by point.
+/// Bounds like those on a box, along a piece of a ray and all curves that stay within `slack` of it, point by point:
+/// what is known of a cone under a warp. Cones that no warp moves are bounded by blobtree/line_cones.h.
 ConeBounds bounds_along(const ConeRecord& cone, ConeKind kind, const ModelUnits& units, const Ray& ray,
                         const Interval& range, double slack = 0);
 

@@ -12,8 +12,8 @@ namespace barkridge {
 double contact_expansion(const ContactShape& shape, double x);
 double contact_expansion_slope(const ContactShape& shape, double x);
 
-/// Whether contact never makes more of its children than their sum: h(x) <= T - x. So it is unless
-/// `allow_large_swelling` is used.
+/// Whether contact is known never to make more of its children than their sum: h(x) <= T - x. So it is where |h'| <= 1,
+/// up to a swelling of width / 3, which only `allow_large_swelling` lets it exceed.
 bool is_below_sum(const ContactShape& shape);
 
 /// The largest |h''|.

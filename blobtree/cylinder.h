@@ -12,13 +12,16 @@ struct Cylinder {
   double radius = 0;
 };
 
+/// The smallest one along x that holds a box, which is not empty.
 Cylinder cylinder_around(const Box& box);
+/// The smallest box that holds a cylinder.
 Box box_around(const Cylinder& cylinder);
 
 /// The part of a range in which a ray is in the cylinder, or a little more.
 Interval clip(const Ray& ray, const Cylinder& cylinder, Interval range);
 
-/// Whether two cylinders may overlap: whether their axes come nearer to each other than the sum of the radii.
+/// False only where two cylinders do not overlap: where their axes stay farther from each other than the sum of the
+/// radii.
 bool may_overlap(const Cylinder& a, const Cylinder& b);
 
 }  // namespace barkridge

@@ -75,8 +75,8 @@ std::size_t primitive_count_of(const FieldProgram& program);
 void evaluate(const FieldModel& model, const FieldProgram& program, std::span<const Vec3> points,
               std::span<double> values, std::span<Vec3> gradients);
 
-/// The smallest t in a range of a ray with F >= kIsoValue, or with `any` any such t, or none [RaySearch]: in single
-/// precision about the range's middle.
+/// The smallest t in a range of a ray with F >= kIsoValue, or with `any` any such t, or none, as RaySearch finds it: in
+/// single precision about the range's middle. `bounds` are the program's on the range.
 std::optional<double> search_along(const FieldModel& model, const FieldProgram& program, const FieldBounds& bounds,
                                    const Ray& ray, const Interval& range, double tolerance, double precision, bool any);
 

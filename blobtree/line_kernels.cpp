@@ -87,7 +87,7 @@ HWY_INLINE Cones cones_of(const ConeColumns& c, std::size_t i) {
 }
 
 // Bounds of a cone's field on a part of the line, between whose ends the height on its axis goes from `y_lo` to `y_hi`
-// and the square of whose distance from the axis is at least `rho2`.
+// and the square of whose distance from the axis is at least `rho2`. [docs/field.md, "Rays"]
 struct Strength {
   Vec highest, slope, least_second, most_second;
   Mask is_steady;

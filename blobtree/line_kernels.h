@@ -30,11 +30,12 @@ struct alignas(32) ConesMet {
   unsigned met = 0, steady = 0;  // last, since columns are aligned
 };
 
+/// A part of a line, in units of the model from the point on.
 struct LineReach {
   float lo, hi;
 };
 
-/// The line's piece reaches by `half` to both sides of the point.
+/// The line's piece reaches by `half` to both sides of the point; lengths along it are in units of the model.
 void meet_cones(const ConeColumns& cones, std::size_t count, const Vec3& direction, float half, ConesMet& met);
 
 }  // namespace barkridge

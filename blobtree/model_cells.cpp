@@ -67,7 +67,8 @@ class BoxColumns {
       columns_[static_cast<std::size_t>(k) + 3].push_back(static_cast<float>(box.hi[k]));
     }
   }
-  /// Whether each overlaps a box; all are of floats.
+  /// Whether each overlaps a box. As those here are of floats, rounding the box to the nearest floats, in whichever
+  /// direction, changes no answer from yes to no.
   void find_overlapping(const Box& box, std::vector<std::uint8_t>& overlaps) const {
     overlaps.assign(columns_[0].size(), 1);
     for (int k = 0; k < 3; ++k) {
@@ -134,7 +135,8 @@ class Planner {
     }
   }
 
-  // The fewer primitives reach a level, the narrower is the one that matters.
+  // The fewer primitives reach a level, the narrower is the one that matters. A second round may count in the cylinder
+  // of the first, since the strongest primitive at a point is the same one. [docs/field.md, "Cells"]
   void add_piece(std::uint32_t sum, const Tube& tube, double from, double to, Plan& plan) {
     static const std::array<double, kMostCounted + 1> kDistances = level_distances();
     reaching_ = near_;

@@ -1,4 +1,5 @@
 #pragma once
+// An order of places or boxes along a space-filling curve.
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

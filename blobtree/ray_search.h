@@ -10,8 +10,9 @@
 namespace barkridge {
 
 /// The smallest t in a range with F >= kIsoValue, or none; with `any`, any such t. `sample(range, values)` gives F at
-/// equal distances along a range, ends included. t is exact to `precision`; what is thinner than `tolerance` along the
-/// ray may be missed, and nothing else.
+/// equal distances along a range, ends included. t is exact to `precision` where F bends no more upward than downward;
+/// what is thinner than `tolerance` along the ray or exceeds the iso-value by no more than rounding may be missed,
+/// nothing else.
 ///
 /// Where F's bounds rule out that it reaches the iso-value between two samples, that is settled; elsewhere the piece
 /// between them is sampled in turn, first pieces first. As the slope bounds F between samples to first order in their

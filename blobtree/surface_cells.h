@@ -22,7 +22,7 @@ class SurfaceCells {
 
   virtual std::size_t size() const = 0;
 
-  /// Holds the cell.
+  /// A box that holds the cell, but for what lies outside the field's support.
   virtual Box box(std::size_t cell) const = 0;
 
   /// Where the ray first is in the cell and inside the solid, with t in `range`, or nothing; t is exact to `tolerance`.

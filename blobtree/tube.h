@@ -33,6 +33,7 @@ struct Tube {
     return 2 * u * std::max(radius_at(part.lo), radius_at(part.hi)) / std::sqrt(1 - 4 * u * u * taper * taper);
   }
 };
+/// `scale` is that of the record's units.
 Tube tube_of(const ConeRecord& cone, ConeKind kind, double scale);
 
 /// The part of a tube's level u between two places, moved by the warps above its sum; nothing where the level is not.

@@ -71,8 +71,7 @@ Box Warp::Framed::to_local(const Box& box) const {
 Box Warp::Framed::to_world(const Box& box) const { return image(axes, origin, box); }
 
 // ---- Bend. In local coordinates the arc's centre lies at (chord / 2, -arc_radius cos(half_angle)); a point's polar
-// angle
-// ---- about it, counted from the bulge towards the tip, times the arc's radius is its axial coordinate.
+// ---- angle about it, counted from the bulge towards the tip, times the arc's radius is its axial coordinate.
 
 Warp::Warp(const Bend& bend, const Box& child_support) {
   const Framed frame{bend.base, frame_along(bend.tip - bend.base, bend.direction)};

@@ -61,6 +61,8 @@ class Warp {
   Vec3 map(const Vec3& p) const { return map_with_jacobian(p).point; }
   WarpedPoint map_with_jacobian(const Vec3& p) const;
   WarpedBox map(const Box& box) const;
+  /// Of the piece of a line between two points. Under a bend its stretch, curvature and jump count only where the child
+  /// reaches.
   WarpedPiece map(const Vec3& from, const Vec3& to) const;
   /// The bend, if it is one: bends have kernels of their own [blobtree/bend_kernels.h].
   const BendData* bend() const { return std::get_if<BendData>(&data_); }

@@ -21,7 +21,7 @@ struct PolygonizeOptions {
 };
 
 /// The surface of the field's solid as a closed, oriented 2-manifold that does not intersect itself: marching cubes
-/// over those blocks of the lattice (multiples of `cell_size` from the origin) that the field's cover touches and its
+/// over those blocks of the lattice (multiples of `cell_size` from the origin) that the field's cells touch and its
 /// bounds cannot rule out, so nothing is missed that the lattice can see and empty space is never sampled.
 ///
 /// Each lattice edge with one end inside has one vertex, at a root of the field (not of its linear interpolation) to

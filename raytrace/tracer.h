@@ -42,10 +42,11 @@ class Tracer {
   /// Whether `first_hit` would find something. Cheaper.
   bool occluded(const Ray& ray, double t_min = 0, double t_max = std::numeric_limits<double>::infinity()) const;
 
+  /// Those of the field, between which rays are traversed. They live as long as the tracer.
   const SurfaceCells& cells() const;
   /// A box that holds the solid; empty when there is none.
   const Box& scene_box() const;
-  /// 6e-8 of the diagonal of the field's support.
+  /// 6e-8 of the diagonal of `scene_box()`.
   double tolerance() const;
 
  private:
