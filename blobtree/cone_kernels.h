@@ -44,10 +44,10 @@ LocalCone local_cone(const ConeRecord& record, ConeKind kind, const Vec3& origin
 /// The sum of the cones' fields, in their order, written to `out`.
 void sum_cones(std::span<const LocalCone> cones, const PointBatch& points, const FieldColumns& out);
 
-/// A cone as a line sees it, and with it all that its formula needs: the height over its base along the axis is y0 + y1
-/// t and the square of the distance from the axis n0 + 2 n1 t + n2 t^2.
+/// A cone as a line sees it, and with it all that its formula needs: with d = t - nearest, the height over its base
+/// along the axis is y0 + y1 d and the square of the distance from the axis rho2 + across2 d^2.
 struct LineCone {
-  float y0, y1, n0, n1, n2;
+  float nearest, y0, y1, rho2, across2;
   float base_radius, tip_radius, taper, length;
   float rise_start, rise_scale, fall_start, fall_scale;
   ConeKind kind;

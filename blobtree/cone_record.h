@@ -70,9 +70,4 @@ struct ConeSupport {
 };
 ConeSupport support_of(const ConeRecord& cone, ConeKind kind);
 
-/// Bounds like those on a box, along a piece of a ray and all curves that stay within `slack` of it, point by point:
-/// what is known of a cone under a warp. Cones that no warp moves are bounded by blobtree/line_cones.h.
-ConeBounds bounds_along(const ConeRecord& cone, ConeKind kind, const ModelUnits& units, const Ray& ray,
-                        const Interval& range, double slack = 0);
-
 }  // namespace barkridge

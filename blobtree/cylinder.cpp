@@ -19,26 +19,30 @@ Box box_around(const Cylinder& c) {
 Interval clip(const Ray& ray, const Cylinder& c, Interval range) {
   // A slope that small cannot be told from none.
   constexpr double kNone = 1e-12;
-  const Vec3 from_center = ray.origin - c.center;
+  // The ray's parameter from the point nearest to the centre on.
+  const double nearest = glm::dot(c.center - ray.origin, ray.direction);
+  const Vec3 from_center = ray.at(nearest) - c.center;
   const double y = glm::dot(from_center, c.axis), y_slope = glm::dot(ray.direction, c.axis);
   const Vec3 beside = from_center - y * c.axis, aside = ray.direction - y_slope * c.axis;
   const double a = glm::dot(aside, aside), b = glm::dot(beside, aside);
   const double outside = glm::dot(beside, beside) - c.radius * c.radius;
+  Interval part{range.lo - nearest, range.hi - nearest};
   if (a > kNone) {
     const double discriminant = b * b - a * outside;
     if (discriminant < 0) return {};
     const double root = std::sqrt(discriminant);
-    range = {std::max(range.lo, (-b - root) / a), std::min(range.hi, (-b + root) / a)};
+    part = {std::max(part.lo, (-b - root) / a), std::min(part.hi, (-b + root) / a)};
   } else if (outside > 0) {
     return {};
   }
   if (std::abs(y_slope) > kNone) {
     const double middle = -y / y_slope, half = std::abs(c.half_length / y_slope);
-    range = {std::max(range.lo, middle - half), std::min(range.hi, middle + half)};
+    part = {std::max(part.lo, middle - half), std::min(part.hi, middle + half)};
   } else if (std::abs(y) > c.half_length) {
     return {};
   }
-  return range;
+  // No part grows beyond the range by rounding.
+  return {std::max(range.lo, nearest + part.lo), std::min(range.hi, nearest + part.hi)};
 }
 
 // The distance of two segments [Ericson 2005, "Real-Time Collision Detection", section 5.1.9].
@@ -49,15 +53,19 @@ bool may_overlap(const Cylinder& a, const Cylinder& b) {
   if (distance2 > far * far) return false;
   const double cosine = glm::dot(a.axis, b.axis), along_a = glm::dot(a.axis, between),
                along_b = glm::dot(b.axis, between);
+  // Axes are known to single precision: where they are nearly parallel, the nearest places are not.
+  constexpr double kParallel = 1e-6;
   const double sine2 = 1 - cosine * cosine;
-  double s = sine2 > 1e-9 ? std::clamp((cosine * along_b - along_a) / sine2, -a.half_length, a.half_length) : 0;
+  double s = sine2 > kParallel ? std::clamp((cosine * along_b - along_a) / sine2, -a.half_length, a.half_length) : 0;
   double t = cosine * s + along_b;
   if (std::abs(t) > b.half_length) {
     t = std::copysign(b.half_length, t);
     s = std::clamp(cosine * t - along_a, -a.half_length, a.half_length);
   }
   const Vec3 way = between + s * a.axis - t * b.axis;
-  return glm::dot(way, way) <= reach * reach * (1 + 1e-9);
+  const double off = 2e-3 * std::min(a.half_length, b.half_length);
+  const double enough = sine2 > kParallel ? reach * (1 + 1e-6) : reach + off;
+  return glm::dot(way, way) <= enough * enough;
 }
 
 }  // namespace barkridge

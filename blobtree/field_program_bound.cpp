@@ -56,10 +56,9 @@ class Bounder {
   }
 
   /// Along a piece of a ray, which lies in the box, and of which is known what it meets.
-  FieldBounds run(const FieldProgram& program, const Ray& ray, const Interval& range, const LineMeeting& meeting) {
-    ray_ = &ray;
-    range_ = range;
+  FieldBounds run(const FieldProgram& program, const LineMeeting& meeting) {
     meeting_ = &meeting;
+    maps_boxes_ = !model_.others.empty();  // of cones all is known
     return run(program);
   }
 
@@ -82,7 +81,7 @@ class Bounder {
         const FieldBounds bounds = bounds_where_supported(other.support, box_, [&](const Box& part) {
           return std::visit([&](const auto& shape) { return bounds_of(shape, part); }, other.shape);
         });
-        push(instruction, bounds, !is_zero(bounds));
+        push(instruction, through_warps(bounds), !is_zero(bounds));
         break;
       }
       case Op::kNegate:
@@ -131,22 +130,21 @@ class Bounder {
     const std::size_t first = cones_.size();
     for (std::size_t k = instruction.index; k < instruction.index + instruction.count; ++k) {
       const ConeReference& reference = program.cones[k];
-      const auto kind = static_cast<ConeKind>(reference.kind);
-      const ConeBounds bounds = bounds_of_cone(k, model_.cones[reference.cone], kind);
+      const ConeBounds bounds = bounds_of_cone(k, reference);
       if (is_zero(bounds.field)) continue;
       add(sum, bounds.field);
-      cones_.emplace_back(reference.cone, bounds.steady ? ConeKind::kSteady : kind);
+      cones_.emplace_back(reference.cone, bounds.steady ? ConeKind::kSteady : static_cast<ConeKind>(reference.kind));
     }
     const std::size_t count = cones_.size() - first;
     push({Op::kCones, static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(first)}, sum, count > 0);
   }
 
-  ConeBounds bounds_of_cone(std::size_t number, const ConeRecord& cone, ConeKind kind) const {
-    if (meeting_ && warps_.empty()) return meeting_->cones[number];
-    if (meeting_ && warps_.size() == 1 && std::isfinite(chord_slack_)) {
-      return bounds_along(cone, kind, model_.units, chord_, chord_range_, chord_slack_);
-    }
-    return bounds_of(cone, kind, model_.units, box_);
+  ConeBounds bounds_of_cone(std::size_t number, const ConeReference& reference) const {
+    if (meeting_) return meeting_->cones[number];
+    ConeBounds bounds =
+        bounds_of(model_.cones[reference.cone], static_cast<ConeKind>(reference.kind), model_.units, box_);
+    bounds.field = through_warps(bounds.field);
+    return bounds;
   }
 
   void push(const FieldInstruction& instruction, const FieldBounds& bounds, bool live) {
@@ -163,29 +161,18 @@ class Bounder {
   }
 
   void enter(const FieldInstruction& instruction) {
-    const Warp& warp = model_.warps[instruction.index];
-    if (meeting_ && warps_.empty()) {
-      enter_along(warp);
-    } else {
-      const WarpedBox warped = warp.map(box_);
-      warps_.push_back({box_, warped.stretch, warped.curvature, warped.jump, rest_.size()});
-      box_ = warped.box;
-    }
+    const WarpedBox warped = maps_boxes_ ? model_.warps[instruction.index].map(box_) : WarpedBox{};
+    warps_.push_back({box_, warped.stretch, warped.curvature, warped.jump, rest_.size()});
     rest_.push_back(instruction);
+    box_ = warped.box;
   }
 
-  // Under a warp the ray's piece is a curve; it stays near the chord of its ends.
-  void enter_along(const Warp& warp) {
-    const WarpedPiece piece = warp.map(ray_->at(range_.lo), ray_->at(range_.hi));
-    const double length = range_.hi - range_.lo, chord = glm::distance(piece.from, piece.to);
-    chord_slack_ = 0.25 * piece.jump * length + 0.125 * piece.curvature * length * length;
-    if (!(chord > 0)) chord_slack_ = std::numeric_limits<double>::infinity();
-    chord_ = {piece.from, (piece.to - piece.from) / chord};
-    chord_range_ = {0, chord};
-    warps_.push_back({box_, piece.stretch, piece.curvature, piece.jump, rest_.size()});
-    box_ = std::isfinite(chord_slack_)
-               ? grown({glm::min(piece.from, piece.to), glm::max(piece.from, piece.to)}, chord_slack_)
-               : warp.map(box_).box;
+  // Bounds of a primitive hold through all warps above it from the start.
+  FieldBounds through_warps(FieldBounds bounds) const {
+    for (auto warp = warps_.rbegin(); warp != warps_.rend(); ++warp) {
+      bounds = through_warp(bounds, warp->stretch, warp->curvature, warp->jump);
+    }
+    return bounds;
   }
 
   void leave(const FieldInstruction& instruction) {
@@ -194,18 +181,11 @@ class Bounder {
     box_ = warp.outer_box;
     Operand& top = stack_.back();
     top.start = warp.start;
-    if (!top.live) {
+    if (top.live) {
+      rest_.push_back(instruction);
+    } else {
       rest_.resize(warp.start);
-      return;
     }
-    // (F o w)'' is F'' along w' plus F' along w''.
-    const double curvature = warp.jump > 0 ? std::numeric_limits<double>::infinity() : warp.curvature;
-    const double mixed = top.bounds.slope > 0 ? top.bounds.slope * curvature : 0,
-                 stretch2 = warp.stretch * warp.stretch;
-    top.bounds.second = {std::min(0.0, stretch2 * top.bounds.second.lo) - mixed,
-                         std::max(0.0, stretch2 * top.bounds.second.hi) + mixed};
-    top.bounds.slope *= warp.stretch;
-    rest_.push_back(instruction);
   }
 
   // ---- Operators. Their operands move from the stack to `operands_`; those that drop out lose their code.
@@ -327,11 +307,7 @@ class Bounder {
   std::size_t start_ = 0;
 
   const LineMeeting* meeting_ = nullptr;
-  const Ray* ray_ = nullptr;
-  Interval range_;
-  Ray chord_;
-  Interval chord_range_;
-  double chord_slack_ = 0;
+  bool maps_boxes_ = true;
 };
 
 }  // namespace
@@ -349,7 +325,7 @@ FieldBounds bound_along(const FieldModel& model, const FieldProgram& program, co
   thread_local Scratch scratch;
   rest.clear();
   const Vec3 a = ray.at(range.lo), b = ray.at(range.hi);
-  return Bounder(model, {glm::min(a, b), glm::max(a, b)}, rest, scratch).run(program, ray, range, meeting);
+  return Bounder(model, {glm::min(a, b), glm::max(a, b)}, rest, scratch).run(program, meeting);
 }
 
 }  // namespace barkridge

@@ -241,7 +241,11 @@ class OriginGroups {
       const Vec3 origin = origin_of(points_[left.front()], spacing_);
       group.clear();
       others.clear();
-      for (const std::uint32_t i : left) (origin_of(points_[i], spacing_) == origin ? group : others).push_back(i);
+      // The first belongs to its own group even if it is no number.
+      group.push_back(left.front());
+      for (const std::uint32_t i : std::span(left).subspan(1)) {
+        (origin_of(points_[i], spacing_) == origin ? group : others).push_back(i);
+      }
       evaluate(origin, std::span<const std::uint32_t>(group));
       left.swap(others);
     }

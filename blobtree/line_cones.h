@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "blobtree/cylinder.h"
 #include "blobtree/field_model.h"
 
 namespace barkridge {
@@ -18,14 +17,13 @@ struct LineMeeting {
   double highest_sum = 0;
   /// Those that matter on the range, in rising order.
   std::vector<std::uint32_t> primitives;
-  /// Bounds of the cones among them, in their order, and whether they may be evaluated as steady. Those of cones that a
-  /// warp moves are not known.
+  /// Bounds of the cones among them, in their order and through all warps above, and whether they may be evaluated as
+  /// steady.
   std::vector<ConeBounds> cones;
 };
 
-/// What a piece of a ray meets of some primitives, which are given in rising order. `supports` has a cylinder around
-/// each of the model's primitives; it may be empty if there are no warps.
-void meet(const FieldModel& model, std::span<const Cylinder> supports, std::span<const std::uint32_t> primitives,
-          const Ray& ray, const Interval& range, LineMeeting& meeting);
+/// What a piece of a ray meets of some primitives, which are given in rising order.
+void meet(const FieldModel& model, std::span<const std::uint32_t> primitives, const Ray& ray, const Interval& range,
+          LineMeeting& meeting);
 
 }  // namespace barkridge

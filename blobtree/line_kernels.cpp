@@ -86,14 +86,20 @@ HWY_INLINE Cones cones_of(const ConeColumns& c, std::size_t i) {
   return k;
 }
 
-// Bounds of a cone's field on a part of the line, between whose ends the height on its axis goes from `y_lo` to `y_hi`
-// and the square of whose distance from the axis is at least `rho2`. [docs/field.md, "Rays"]
+struct Heights {
+  Vec lo, hi;
+};
+
+// Bounds of a cone's field on the part of a piece in its support, of which are known the heights on the axis and that
+// the square of the distance from it is at least `rho2`; and whether it is steady on the `whole` piece.
 struct Strength {
   Vec highest, slope, least_second, most_second;
   Mask is_steady;
 };
 
-HWY_INLINE Strength strength(const ConeColumns& c, const Cones& k, std::size_t i, Vec y_lo, Vec y_hi, Vec rho2) {
+HWY_INLINE Strength strength(const ConeColumns& c, const Cones& k, std::size_t i, const Heights& part,
+                             const Heights& whole_piece, Vec rho2) {
+  const Vec y_lo = part.lo, y_hi = part.hi;
   const Tag d;
   const Vec zero = hn::Zero(d), one = constant(1);
   const Mask grows = hn::Ge(k.taper, zero);
@@ -106,8 +112,7 @@ HWY_INLINE Strength strength(const ConeColumns& c, const Cones& k, std::size_t i
   const Vec v = hn::Min(hn::Mul(hn::Div(rho2, hn::Max(whole, constant(1e-30))), constant(1 - 1e-5)), one);
   const Vec t = hn::Sub(one, v);
   const Vec falloff = hn::Mul(square(t), hn::NegMulAdd(v, constant(4.0 / 9), one));
-  const Mask is_unknown = hn::Gt(load(c.is_unknown, i), zero);
-  s.highest = hn::IfThenElse(is_unknown, one, hn::MulAdd(falloff, constant(1 + 1e-5), constant(1e-7)));
+  s.highest = hn::MulAdd(falloff, constant(1 + 1e-5), constant(1e-7));
 
   // The nearest sphere is not smaller than that at the foot of the point, which is kept on the axis.
   const Vec thin_end = hn::IfThenElse(grows, y_lo, y_hi);
@@ -133,12 +138,12 @@ HWY_INLINE Strength strength(const ConeColumns& c, const Cones& k, std::size_t i
   s.most_second = hn::IfThenElse(has_crease, unknown, hn::MulAdd(up, slope2, mixed));
 
   // The nearest sphere's centre is off the foot by no more than `sweep`, towards the thick end: no cap, fade or limit.
-  const Vec margin = hn::Mul(constant(kRounding), hn::Add(hn::Abs(y_hi), k.lateral));
+  const Vec margin = hn::Mul(constant(kRounding), hn::Add(hn::Abs(whole_piece.hi), k.lateral));
   const Vec sweep = hn::Div(hn::Mul(k.taper, square(k.lateral)), hn::Max(thin, constant(1e-16)));
   const Vec first = hn::Max(hn::Add(k.axis_lo, hn::Max(hn::Neg(sweep), zero)), k.rise_end);
   const Vec last = hn::Min(hn::Sub(k.axis_hi, hn::Max(sweep, zero)), k.fall_start);
-  s.is_steady =
-      hn::AndNot(k.is_limited, hn::And(hn::Ge(y_lo, hn::Add(first, margin)), hn::Le(y_hi, hn::Sub(last, margin))));
+  s.is_steady = hn::AndNot(k.is_limited, hn::And(hn::Ge(whole_piece.lo, hn::Add(first, margin)),
+                                                 hn::Le(whole_piece.hi, hn::Sub(last, margin))));
   return s;
 }
 
@@ -148,24 +153,25 @@ HWY_INLINE unsigned bits_of(Mask mask, std::size_t i) {
   return static_cast<unsigned>(bytes[0]) << i;
 }
 
-void MeetCones(const ConeColumns& cones, std::size_t count, const Vec3& direction, float half_length, ConesMet& met) {
+void MeetCones(const ConeColumns& cones, std::size_t count, ConesMet& met) {
   const Tag d;
-  const Vec zero = hn::Zero(d), tiny = constant(1e-12), half = hn::Set(d, half_length);
-  const Vec3V along{constant(direction.x), constant(direction.y), constant(direction.z)};
+  const Vec zero = hn::Zero(d), tiny = constant(1e-12);
   met.met = met.steady = 0;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const Cones k = cones_of(cones, i);
     // The line in the cone's coordinates: y = y0 + y1 t, rho^2 = n0 + 2 n1 t + n2 t^2.
-    const Vec3V base = load(cones.base, i), axis = load(cones.axis, i);
+    const Vec half = load(cones.half, i), slack = load(cones.slack, i);
+    const Vec3V base = load(cones.base, i), axis = load(cones.axis, i), along = load(cones.direction, i);
     const Vec3V from_base{hn::Neg(base.x), hn::Neg(base.y), hn::Neg(base.z)};
     const Vec y0 = dot(from_base, axis), y1 = dot(along, axis);
     const Vec3V beside = less(from_base, y0, axis), aside = less(along, y1, axis);
     const Vec n0 = dot(beside, beside), n1 = dot(beside, aside), n2 = hn::Max(dot(aside, aside), tiny);
     // What places and squares of distances are off by.
     const Vec size = hn::Add(half, k.lateral), length = hn::Add(hn::Abs(y0), size);
-    const Vec off = hn::Mul(constant(kRounding), length), off2 = hn::Mul(off, size);
+    const Vec rounding = hn::Mul(constant(kRounding), length), off2 = hn::Mul(rounding, size);
+    const Vec off = hn::Add(rounding, slack);
     // Where it is beside the axis' part and near enough to it.
-    const Vec lateral2 = hn::Add(square(k.lateral), off2);
+    const Vec lateral2 = hn::Add(square(hn::Add(k.lateral, slack)), off2);
     const Vec discriminant = hn::NegMulAdd(n2, hn::Sub(n0, lateral2), square(n1));
     const Vec root = hn::Sqrt(hn::Max(discriminant, zero)), across = hn::Div(constant(1), n2);
     const Vec nearest = hn::Neg(hn::Mul(n1, across)), chord = hn::Mul(root, across);
@@ -178,21 +184,23 @@ void MeetCones(const ConeColumns& cones, std::size_t count, const Vec3& directio
     if (hn::AllFalse(d, is_met)) continue;
 
     const Vec at = clamped(nearest, lo, hi);
-    const Vec rho2 = hn::Max(hn::MulAdd(at, hn::MulAdd(at, n2, hn::Add(n1, n1)), hn::Sub(n0, off2)), zero);
+    Vec rho2 = hn::Max(hn::MulAdd(at, hn::MulAdd(at, n2, hn::Add(n1, n1)), hn::Sub(n0, off2)), zero);
+    if (!hn::AllFalse(d, hn::Gt(slack, zero))) rho2 = square(hn::Max(hn::Sub(hn::Sqrt(rho2), slack), zero));
     const Vec y_a = hn::MulAdd(y1, lo, y0), y_b = hn::MulAdd(y1, hi, y0);
-    const Strength s = strength(cones, k, i, hn::Min(y_a, y_b), hn::Max(y_a, y_b), rho2);
+    // What is steady is evaluated so all along the piece, also where it has left the support.
+    const Vec y_half = hn::MulAdd(hn::Abs(y1), half, slack);
+    const Heights part{hn::Max(hn::Sub(hn::Min(y_a, y_b), slack), hn::Sub(k.along_lo, rounding)),
+                       hn::Min(hn::Add(hn::Max(y_a, y_b), slack), hn::Add(k.along_hi, rounding))};
+    const Heights whole{hn::Sub(y0, y_half), hn::Add(y0, y_half)};
+    const Strength s = strength(cones, k, i, part, whole, rho2);
     hn::Store(lo, d, &met.lo[i]);
     hn::Store(hi, d, &met.hi[i]);
     hn::Store(s.highest, d, &met.highest[i]);
     hn::Store(s.slope, d, &met.slope[i]);
     hn::Store(s.least_second, d, &met.least_second[i]);
     hn::Store(s.most_second, d, &met.most_second[i]);
-    // What is steady is evaluated so all along the line, also where it has left the support: it must not get past the
-    // support's ends.
-    const Vec y_half = hn::Mul(hn::Abs(y1), half);
-    const Mask stays = hn::And(hn::Ge(hn::Sub(y0, y_half), k.along_lo), hn::Le(hn::Add(y0, y_half), k.along_hi));
     met.met |= bits_of(is_met, i);
-    met.steady |= bits_of(hn::And(stays, s.is_steady), i);
+    met.steady |= bits_of(s.is_steady, i);
   }
 }
 
@@ -204,8 +212,8 @@ namespace barkridge {
 
 HWY_EXPORT(MeetCones);
 
-void meet_cones(const ConeColumns& cones, std::size_t count, const Vec3& direction, float half, ConesMet& met) {
-  HWY_DYNAMIC_DISPATCH(MeetCones)(cones, count, direction, half, met);
+void meet_cones(const ConeColumns& cones, std::size_t count, ConesMet& met) {
+  HWY_DYNAMIC_DISPATCH(MeetCones)(cones, count, met);
 }
 
 }  // namespace barkridge

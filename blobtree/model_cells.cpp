@@ -89,8 +89,8 @@ class BoxColumns {
 // Plans the cells of primitives that are neighbours in space.
 class Planner {
  public:
-  Planner(const FieldModel& model, std::span<const Cylinder> supports, const Box& region, bool is_part)
-      : model_(model), supports_(supports), region_(region), is_part_(is_part) {}
+  Planner(const FieldModel& model, std::span<const Cylinder> supports, const Box& region)
+      : model_(model), supports_(supports), region_(region) {}
 
   void plan(std::span<const std::uint32_t> neighbours, Plan& plan) {
     Box around;
@@ -142,8 +142,16 @@ class Planner {
     reaching_ = near_;
     std::optional<Cylinder> cylinder = cylinder_of(model_, sum, tube, 1, from, to);
     constexpr int kRounds = 2;
-    for (int round = 0; round < kRounds && cylinder && model_.is_below_sum && tube.limit == 0; ++round) {
+    constexpr std::size_t kMany = 8;
+    constexpr double kShort = 2;
+    for (int round = 0; round < kRounds && cylinder && model_.is_below_sum && tube.has_levels; ++round) {
       keep_reaching(*cylinder);
+      // Where many reach a long piece, fewer reach its halves.
+      if (reaching_.size() > kMany && to - from > kShort * tube.base_radius) {
+        const double middle = 0.5 * (from + to);
+        add_piece(sum, tube, from, middle, plan);
+        return add_piece(sum, tube, middle, to, plan);
+      }
       if (reaching_.size() > kMostCounted) break;
       cylinder = cylinder_of(model_, sum, tube, kDistances[std::max<std::size_t>(1, reaching_.size())], from, to);
     }
@@ -157,7 +165,7 @@ class Planner {
   }
 
   void add(const Cylinder& cylinder, Plan& plan) {
-    if (is_part_ && !box_around(cylinder).overlaps(region_)) return;
+    if (!box_around(cylinder).overlaps(region_)) return;
     keep_reaching(cylinder);
     plan.cells.push_back(
         {cylinder, static_cast<std::uint32_t>(plan.primitives.size()), static_cast<std::uint32_t>(reaching_.size())});
@@ -167,7 +175,6 @@ class Planner {
   const FieldModel& model_;
   std::span<const Cylinder> supports_;
   const Box& region_;
-  bool is_part_;                         // whether the region leaves out any of the model
   std::vector<std::uint32_t> all_;       // primitives that may matter to any of the neighbours
   BoxColumns boxes_;                     // around them
   std::vector<std::uint32_t> near_;      // those that may matter to one of the neighbours
@@ -194,44 +201,35 @@ SurfacePoint polished(const FieldModel& model, const FieldProgram& program, cons
 
 class ModelCells final : public SurfaceCells {
  public:
-  ModelCells(ModelPtr model, const Box& region)
-      : model_(std::move(model)), supports_(support_cylinders(*model_)), region_(region) {
+  ModelCells(ModelPtr model, const Box& region) : model_(std::move(model)), region_(region) {
+    const std::vector<Cylinder> supports = support_cylinders(*model_);
     is_part_ = !region_.contains(model_->support.lo) || !region_.contains(model_->support.hi);
     constexpr std::size_t kChunk = 64;
     const std::size_t groups = model_->supports.group_count();
     std::vector<Plan> plans((groups + kChunk - 1) / kChunk);
     tbb::parallel_for(std::size_t{0}, plans.size(), [&](std::size_t i) {
-      Planner planner(*model_, supports_, region_, is_part_);
+      Planner planner(*model_, supports, region_);
       for (std::size_t g = i * kChunk; g < std::min(groups, (i + 1) * kChunk); ++g) {
         planner.plan(model_->supports.group(g), plans[i]);
       }
     });
     unite(plans);
-    if (model_->warps.empty()) supports_ = {};  // rays need them only of what is warped
   }
 
   std::size_t size() const override { return cells_.size(); }
 
-  Box box(std::size_t cell) const override {
-    return intersect(intersect(box_around(cells_[cell].cylinder()), model_->support), region_);
-  }
+  Box box(std::size_t cell) const override { return intersect(box_around(cells_[cell].cylinder()), region_); }
 
   std::optional<SurfacePoint> first_inside(std::size_t cell, const Ray& ray, const Interval& range, double limit,
                                            double tolerance) const override {
     const Interval part = clip_to_cell(cell, ray, range);
     if (part.empty() || part.lo >= limit) return std::nullopt;
-    thread_local FieldProgram rest;
-    const std::optional<double> t =
-        search(primitives_of(cells_[cell]), ray, part, tolerance, kCoarseness * tolerance, false, rest);
-    if (!t || *t >= limit) return std::nullopt;
-    return polished(*model_, rest, ray, *t, part, tolerance);
+    return search(primitives_of(cells_[cell]), ray, part, limit, tolerance, false);
   }
   bool any_inside(std::size_t cell, const Ray& ray, const Interval& range, double tolerance) const override {
     const Interval part = clip_to_cell(cell, ray, range);
-    thread_local FieldProgram rest;
-    constexpr double kAnywhere = std::numeric_limits<double>::infinity();
-    return !part.empty() &&
-           search(primitives_of(cells_[cell]), ray, part, tolerance, kAnywhere, true, rest).has_value();
+    constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+    return !part.empty() && search(primitives_of(cells_[cell]), ray, part, kNoLimit, tolerance, true).has_value();
   }
 
  private:
@@ -274,26 +272,33 @@ class ModelCells final : public SurfaceCells {
     return is_part_ && !part.empty() ? clip(ray, region_, part) : part;
   }
 
-  // Most of the few primitives that matter in a cell do not matter on the ray. `rest` becomes the program of what does,
-  // near what is found.
-  std::optional<double> search(std::span<const std::uint32_t> primitives, const Ray& ray, const Interval& range,
-                               double tolerance, double precision, bool any, FieldProgram& rest) const {
+  // Most of the few primitives that matter in a cell do not matter on the ray. With `any`, any point will do.
+  std::optional<SurfacePoint> search(std::span<const std::uint32_t> primitives, const Ray& ray, const Interval& range,
+                                     double limit, double tolerance, bool any) const {
     thread_local LineMeeting meeting;
-    meet(*model_, supports_, primitives, ray, range, meeting);
+    meet(*model_, primitives, ray, range, meeting);
     const Interval reach = meeting.reach;
     if (reach.empty() || (model_->is_below_sum && meeting.highest_sum < kIsoValue)) return std::nullopt;
-    thread_local FieldProgram met;
+    const double length = reach.hi - reach.lo, middle = 0.5 * (reach.lo + reach.hi);
+    // Under warps only short pieces have good bounds.
+    constexpr double kMuchShorter = 0.7, kMostVariation = 24;
+    const bool may_shorten = !model_->warps.empty() && length > 2 * tolerance;
+    if (may_shorten && length < kMuchShorter * (range.hi - range.lo)) {
+      return search(primitives, ray, reach, limit, tolerance, any);
+    }
+    thread_local FieldProgram met, rest;
     assemble(*model_, meeting.primitives, met);
     const FieldBounds bounds = bound_along(*model_, met, meeting, ray, reach, rest);
     if (bounds.value.hi < kIsoValue) return std::nullopt;
-    // Under warps only short pieces have good bounds.
-    constexpr double kMostVariation = 24;
-    const double length = reach.hi - reach.lo, middle = 0.5 * (reach.lo + reach.hi);
-    if (std::isinf(bounds.second.lo) && bounds.slope * length > kMostVariation && length > 2 * tolerance) {
-      const std::optional<double> first = search(primitives, ray, {reach.lo, middle}, tolerance, precision, any, rest);
-      return first ? first : search(primitives, ray, {middle, reach.hi}, tolerance, precision, any, rest);
+    if (may_shorten && std::isinf(bounds.second.lo) && bounds.slope * length > kMostVariation) {
+      const std::optional<SurfacePoint> first = search(primitives, ray, {reach.lo, middle}, limit, tolerance, any);
+      return first ? first : search(primitives, ray, {middle, reach.hi}, limit, tolerance, any);
     }
-    return search_along(*model_, rest, bounds, ray, reach, tolerance, precision, any);
+    const double precision = any ? std::numeric_limits<double>::infinity() : kCoarseness * tolerance;
+    const std::optional<double> t = search_along(*model_, rest, bounds, ray, reach, tolerance, precision, any);
+    // The step to come goes no farther than the precision.
+    if (!t || *t - kCoarseness * tolerance >= limit) return std::nullopt;
+    return any ? SurfacePoint{*t, Vec3(0)} : polished(*model_, rest, ray, *t, range, tolerance);
   }
 
   std::span<const std::uint32_t> primitives_of(const Cell& cell) const {
@@ -301,7 +306,6 @@ class ModelCells final : public SurfaceCells {
   }
 
   ModelPtr model_;
-  std::vector<Cylinder> supports_;
   Box region_;
   bool is_part_ = false;
   std::vector<Cell> cells_;

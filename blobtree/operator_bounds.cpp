@@ -46,6 +46,15 @@ double lowest_second(std::span<const FieldBounds> children) {
 
 }  // namespace
 
+FieldBounds through_warp(FieldBounds bounds, double stretch, double curvature, double jump) {
+  const double mixed = bounds.slope > 0 ? bounds.slope * (jump > 0 ? kInfinity : curvature) : 0;
+  const double stretch2 = stretch * stretch;
+  bounds.second = {std::min(0.0, stretch2 * bounds.second.lo) - mixed,
+                   std::max(0.0, stretch2 * bounds.second.hi) + mixed};
+  bounds.slope *= stretch;
+  return bounds;
+}
+
 FieldBounds bounds_of(const Sum&, std::span<const FieldBounds> children) {
   FieldBounds sum{{0, 0}, 0, {0, 0}};
   for (const FieldBounds& child : children) add(sum, child);

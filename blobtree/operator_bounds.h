@@ -18,6 +18,9 @@ inline void add(FieldBounds& sum, const FieldBounds& summand) {
   sum.second.hi += summand.second.hi;
 }
 
+/// Those of F o w from those of F, with bounds of w as in WarpedBox: (F o w)'' is F'' along w' plus F' along w''.
+FieldBounds through_warp(FieldBounds bounds, double stretch, double curvature, double jump);
+
 FieldBounds bounds_of(const Sum&, std::span<const FieldBounds> children);
 FieldBounds bounds_of(const Ricci& ricci, std::span<const FieldBounds> children);
 FieldBounds bounds_of(const Union&, std::span<const FieldBounds> children);

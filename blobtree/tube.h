@@ -1,6 +1,8 @@
 #pragma once
 // A cone and the levels of its field as cylinders around it.
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -15,7 +17,8 @@ struct Tube {
   double base_radius, taper, length;
   Interval along;
   bool free_base, free_tip;
-  double limit = 0;  // no level is wider, where a limit of the radius is at work: then levels are not told apart
+  double lateral;   ///< no level is wider
+  bool has_levels;  ///< not where limits of the radius may be at work: then levels are not told apart
 
   double radius_at(double y) const {
     return base_radius + taper * std::clamp(y, free_base ? 0 : y, free_tip ? length : y);
@@ -23,14 +26,15 @@ struct Tube {
 
   /// The places beside which the level u can be, between two others.
   Interval part(double u, double from, double to) const {
-    if (limit == 0 && free_base) from = std::max(from, -2 * u * base_radius);
-    if (limit == 0 && free_tip) to = std::min(to, length + 2 * u * (base_radius + taper * length));
+    if (has_levels && free_base) from = std::max(from, -2 * u * base_radius);
+    if (has_levels && free_tip) to = std::min(to, length + 2 * u * (base_radius + taper * length));
     return {from, to};
   }
   /// The level lies within this distance of the axis there.
   double reach(double u, const Interval& part) const {
-    if (limit > 0) return limit;
-    return 2 * u * std::max(radius_at(part.lo), radius_at(part.hi)) / std::sqrt(1 - 4 * u * u * taper * taper);
+    if (!has_levels) return lateral;
+    const double radius = std::max(radius_at(part.lo), radius_at(part.hi));
+    return std::min(lateral, 2 * u * radius / std::sqrt(1 - 4 * u * u * taper * taper));
   }
 };
 /// `scale` is that of the record's units.

@@ -335,6 +335,14 @@ WarpedPiece Warp::map(const Vec3& from, const Vec3& to) const {
   return {map(from), map(to), box.stretch, box.curvature, box.jump};
 }
 
+Vec3 Warp::bent_axis(double height) const {
+  const BendData& d = std::get<BendData>(data_);
+  const double on_arc = std::clamp(height, 0.0, d.arc), turn = on_arc / d.arc_radius - d.half_angle;
+  const double sine = std::sin(turn), cosine = std::cos(turn), past = height - on_arc;
+  return d.frame.to_world(
+      {0.5 * d.chord + d.arc_radius * sine + past * cosine, d.center_height + d.arc_radius * cosine - past * sine, 0});
+}
+
 Box Warp::bent_support(const Box& local) const { return support_local(std::get<BendData>(data_), local); }
 
 Box Warp::support(const Box& child_support) const {

@@ -71,6 +71,8 @@ class Warp {
   /// The same for a bend, from a box in its frame to one in it: along the axis, which boxes in the world wrap but
   /// loosely.
   Box bent_support(const Box& local) const;
+  /// Where a bend moves the point of its axis at a height over the base, in the world.
+  Vec3 bent_axis(double height) const;
 
  private:
   struct TwistData {

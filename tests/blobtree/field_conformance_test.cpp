@@ -190,6 +190,16 @@ TEST_CASE("cells hold the whole solid") {
   }
 }
 
+TEST_CASE("points that are no numbers do not keep the others from their values") {
+  const auto field = compile(random_tree(3, 12));
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<Vec3> points{Vec3(none), Vec3(0.1), Vec3(1, none, 0), Vec3(-0.7, 0.2, 0.4)};
+  std::vector<double> values(points.size());
+  field->values(points, values);
+  CHECK(values[1] == at(*field, points[1]).value);
+  CHECK(values[3] == at(*field, points[3]).value);
+}
+
 TEST_CASE("bounds close in on the value as the box shrinks") {
   for (const auto& [name, make, step_size, tolerance] : kFields) {
     for (int seed = 0; seed < kTrees; ++seed) {

@@ -5,7 +5,6 @@
 #include "blobtree/cone_kernels.h"
 #include "blobtree/from_skeleton.h"
 #include "blobtree/primitive.h"
-#include "blobtree/tube.h"
 #include "tests/blobtree/instruction_sets.h"
 #include "tests/blobtree/random_trees.h"
 #include "tests/support/skeletons.h"
@@ -57,7 +56,7 @@ void check_meeting(const FieldModel& model, const Ray& ray, const Interval& rang
   FieldProgram whole, met, rest;
   assemble(model, all, whole);
   LineMeeting meeting;
-  meet(model, support_cylinders(model), all, ray, range, meeting);
+  meet(model, all, ray, range, meeting);
   ++tally.rays;
   tally.met += static_cast<int>(meeting.primitives.size());
   tally.unmet += static_cast<int>(all.size() - meeting.primitives.size());
@@ -90,10 +89,18 @@ void check_meeting(const FieldModel& model, const Ray& ray, const Interval& rang
 
 Ray random_ray(const BlobTree& tree, RandomSource& random) {
   const Vec3 origin = random.in_box({Vec3(-2), Vec3(2)});
-  // Every tenth runs along some cone's axis.
+  // Some run along a cone's axis, and some graze a plain cone lengthwise, to leave its support past its thick end.
   const Node& node = tree.nodes[static_cast<std::size_t>(random.integer(0, static_cast<int>(tree.nodes.size()) - 1))];
   const FadedCone* faded = std::get_if<FadedCone>(&node.what);
   if (faded && random.chance(0.1)) return {origin, glm::normalize(faded->tip - faded->base)};
+  const Cone* plain = std::get_if<Cone>(&node.what);
+  if (plain && plain->base != plain->tip && random.chance(0.3)) {
+    const Vec3 axis = glm::normalize(plain->tip - plain->base), side = glm::cross(axis, random.direction());
+    const double thick = std::max(plain->base_radius, plain->tip_radius);
+    const Vec3 target = plain->tip + random.uniform(1.8, 2.1) * thick * glm::normalize(side);
+    const Vec3 direction = glm::normalize(axis + random.uniform(-0.1, 0.1) * random.direction());
+    return {target - 1.5 * direction, direction};
+  }
   return {origin, random.direction()};
 }
 
