@@ -142,7 +142,7 @@ class Planner {
     reaching_ = near_;
     std::optional<Cylinder> cylinder = cylinder_of(model_, sum, tube, 1, from, to);
     constexpr int kRounds = 2;
-    constexpr std::size_t kMany = 8;
+    constexpr std::size_t kMany = 24;
     constexpr double kShort = 2;
     for (int round = 0; round < kRounds && cylinder && model_.is_below_sum && tube.has_levels; ++round) {
       keep_reaching(*cylinder);
