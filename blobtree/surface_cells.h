@@ -25,9 +25,9 @@ class SurfaceCells {
   /// A box that holds the cell, but for what lies outside the field's support.
   virtual Box box(std::size_t cell) const = 0;
 
-  /// Where the ray first is in the cell and inside the solid, with t in `range`, or nothing; t is exact to `tolerance`.
-  /// Nothing is missed that is thicker than that along the ray and exceeds the iso-value by more than 1e-5. What is not
-  /// before `limit` need not be found.
+  /// Where the ray first is in the cell and inside the solid, with t in `range`, or nothing; t is exact to `tolerance`,
+  /// or to some more where the field has a crease or the ray grazes. Nothing is missed that is thicker than that along
+  /// the ray and exceeds the iso-value by more than 1e-5. What is not before `limit` need not be found.
   virtual std::optional<SurfacePoint> first_inside(std::size_t cell, const Ray& ray, const Interval& range,
                                                    double limit, double tolerance) const = 0;
 
