@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "blobtree/surface_cells.h"
+#include "blobtree/field.h"
 #include "raytrace/camera.h"
 
 namespace barkridge {
