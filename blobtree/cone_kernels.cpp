@@ -340,6 +340,16 @@ void sum_cones_along(std::span<const LineCone> cones, const float* t, float* f) 
   HWY_DYNAMIC_DISPATCH(SumConesAlong)(cones, t, f);
 }
 
+namespace {
+
+ConeShape shape_of(const ConeRecord& record, ConeKind kind) {
+  return {record.base_radius,   record.tip_radius(), record.taper,      record.length, record.rise_start,
+          record.rise_scale,    record.fall_start,   record.fall_scale, kind,          record.has_free_base(),
+          record.has_free_tip()};
+}
+
+}  // namespace
+
 LineCone line_cone(const ConeRecord& record, ConeKind kind, const Vec3& origin, const Vec3& direction, double scale) {
   // Counted from the nearest approach on, what is small is so without cancellation.
   const Vec3 axis(record.axis), from_base = scale * (origin - record.base);
@@ -350,39 +360,19 @@ LineCone line_cone(const ConeRecord& record, ConeKind kind, const Vec3& origin, 
   const Vec3 from_base_there = from_base + nearest * direction;
   const double y0 = glm::dot(from_base_there, axis);
   const Vec3 beside = from_base_there - y0 * axis;
-  return {static_cast<float>(nearest),
+  return {shape_of(record, kind),
+          static_cast<float>(nearest),
           static_cast<float>(y0),
           static_cast<float>(y1),
           static_cast<float>(glm::dot(beside, beside)),
-          static_cast<float>(across2),
-          record.base_radius,
-          record.tip_radius(),
-          record.taper,
-          record.length,
-          record.rise_start,
-          record.rise_scale,
-          record.fall_start,
-          record.fall_scale,
-          kind,
-          record.has_free_base(),
-          record.has_free_tip()};
+          static_cast<float>(across2)};
 }
 
 LocalCone local_cone(const ConeRecord& record, ConeKind kind, const Vec3& origin, double scale) {
   const Vec3 base = scale * (record.base - origin);
-  return {{static_cast<float>(base.x), static_cast<float>(base.y), static_cast<float>(base.z)},
-          {record.axis.x, record.axis.y, record.axis.z},
-          record.base_radius,
-          record.tip_radius(),
-          record.taper,
-          record.length,
-          record.rise_start,
-          record.rise_scale,
-          record.fall_start,
-          record.fall_scale,
-          kind,
-          record.has_free_base(),
-          record.has_free_tip()};
+  return {shape_of(record, kind),
+          {static_cast<float>(base.x), static_cast<float>(base.y), static_cast<float>(base.z)},
+          {record.axis.x, record.axis.y, record.axis.z}};
 }
 
 }  // namespace barkridge

@@ -31,27 +31,27 @@ struct FieldColumns {
   bool has_gradient() const { return gradient[0] != nullptr; }
 };
 
-/// A cone relative to a batch's origin, with all that its formula needs of it.
-struct LocalCone {
-  std::array<float, 3> base, axis;
+/// What a cone's formula needs of it, wherever it stands.
+struct ConeShape {
   float base_radius, tip_radius, taper, length;
   float rise_start, rise_scale, fall_start, fall_scale;
   ConeKind kind;
   bool free_base, free_tip;
+};
+
+/// A cone relative to a batch's origin.
+struct LocalCone : ConeShape {
+  std::array<float, 3> base, axis;
 };
 LocalCone local_cone(const ConeRecord& record, ConeKind kind, const Vec3& origin, double scale);
 
 /// The sum of the cones' fields, in their order, written to `out`.
 void sum_cones(std::span<const LocalCone> cones, const PointBatch& points, const FieldColumns& out);
 
-/// A cone as a line sees it, and with it all that its formula needs: with d = t - nearest, the height over its base
-/// along the axis is y0 + y1 d and the square of the distance from the axis rho2 + across2 d^2.
-struct LineCone {
+/// A cone as a line sees it: with d = t - nearest, the height over its base along the axis is y0 + y1 d and the square
+/// of the distance from the axis rho2 + across2 d^2.
+struct LineCone : ConeShape {
   float nearest, y0, y1, rho2, across2;
-  float base_radius, tip_radius, taper, length;
-  float rise_start, rise_scale, fall_start, fall_scale;
-  ConeKind kind;
-  bool free_base, free_tip;
 };
 /// `origin` is the line's point at t = 0; t is in units of the model.
 LineCone line_cone(const ConeRecord& record, ConeKind kind, const Vec3& origin, const Vec3& direction, double scale);
