@@ -185,18 +185,28 @@ class Planner {
 
 // What a search is asked for before a step of Newton's method does the rest, in units of the tolerance.
 constexpr double kCoarseness = 16;
+// The step may be longer where the field bends up, whose chords are bounded by nothing.
+constexpr double kLongestStep = 4 * kCoarseness;
 
-// A root on a ray, found to so much, and the gradient there. The step's error is quadratic in what was left.
-SurfacePoint polished(const FieldModel& model, const FieldProgram& program, const Ray& ray, double t,
-                      const Interval& range, double tolerance) {
+Vec3 gradient_at(const FieldModel& model, const FieldProgram& program, const Vec3& point) {
+  double value = 0;
+  Vec3 gradient{0};
+  evaluate(model, program, {&point, 1}, {&value, 1}, {&gradient, 1});
+  return gradient;
+}
+
+// A root on a ray after the step, whose error is quadratic in what was left, and the gradient; nothing where the step
+// would be longer than `longest`.
+std::optional<SurfacePoint> polished(const FieldModel& model, const FieldProgram& program, const Ray& ray, double t,
+                                     const Interval& range, double longest) {
   const Vec3 point = ray.at(t);
   double value = 0;
   Vec3 gradient{0};
   evaluate(model, program, {&point, 1}, {&value, 1}, {&gradient, 1});
+  if (t <= range.lo) return SurfacePoint{t, gradient};
   const double step = (kIsoValue - value) / glm::dot(gradient, ray.direction);
-  // A longer one would be due to a ray that grazes, whose root is as good as the field's rounding allows.
-  const bool is_short = std::abs(step) <= kCoarseness * tolerance;
-  return {is_short && t > range.lo ? std::clamp(t + step, range.lo, range.hi) : t, gradient};
+  if (!(std::abs(step) <= longest)) return std::nullopt;
+  return SurfacePoint{std::clamp(t + step, range.lo, range.hi), gradient};
 }
 
 class ModelCells final : public SurfaceCells {
@@ -296,9 +306,15 @@ class ModelCells final : public SurfaceCells {
     }
     const double precision = any ? std::numeric_limits<double>::infinity() : kCoarseness * tolerance;
     const std::optional<double> t = search_along(*model_, rest, bounds, ray, reach, tolerance, precision, any);
-    // The step to come goes no farther than the precision.
-    if (!t || *t - kCoarseness * tolerance >= limit) return std::nullopt;
-    return any ? SurfacePoint{*t, Vec3(0)} : polished(*model_, rest, ray, *t, range, tolerance);
+    // The step to come goes no farther.
+    if (!t || *t - kLongestStep * tolerance >= limit) return std::nullopt;
+    if (any) return SurfacePoint{*t, Vec3(0)};
+    if (const auto point = polished(*model_, rest, ray, *t, range, kLongestStep * tolerance)) return point;
+    // A step that long comes of a ray that grazes, or of a field that bends up.
+    const std::optional<double> exact = search_along(*model_, rest, bounds, ray, reach, tolerance, tolerance, false);
+    if (!exact) return std::nullopt;
+    const auto point = polished(*model_, rest, ray, *exact, range, tolerance);
+    return point ? point : SurfacePoint{*exact, gradient_at(*model_, rest, ray.at(*exact))};
   }
 
   std::span<const std::uint32_t> primitives_of(const Cell& cell) const {
