@@ -290,7 +290,8 @@ void add_cone_along(const LineCone c, const float* t, float* f) {
     const Vec at = hn::Sub(hn::LoadU(d, t + i), constant(c.nearest));
     AxialPoint q;  // only its height and distance count where no gradient is wanted
     q.y = hn::MulAdd(at, constant(c.y1), constant(c.y0));
-    q.rho2 = hn::MulAdd(hn::Mul(at, at), constant(c.across2), constant(c.rho2));
+    q.rho2 = hn::MulAdd(at, hn::MulAdd(at, constant(c.across2), constant(c.slope)), constant(c.rho2));
+    q.rho2 = hn::Max(q.rho2, hn::Zero(d));
     Accumulator sum;
     sum.f = hn::LoadU(d, f + i);
     if constexpr (kKind == ConeKind::kFaded || kKind == ConeKind::kLimited) {
@@ -350,13 +351,14 @@ ConeShape shape_of(const ConeRecord& record, ConeKind kind) {
 
 }  // namespace
 
-LineCone line_cone(const ConeRecord& record, ConeKind kind, const Vec3& origin, const Vec3& direction, double scale) {
-  // Counted from the nearest approach on, what is small is so without cancellation.
+LineCone line_cone(const ConeRecord& record, ConeKind kind, const Vec3& origin, const Vec3& direction, double scale,
+                   double reach) {
+  // Counted from the nearest approach within reach on, what is small is so without cancellation.
   const Vec3 axis(record.axis), from_base = scale * (origin - record.base);
   const double y1 = glm::dot(direction, axis);
   const Vec3 aside = direction - y1 * axis;
   const double across2 = glm::dot(aside, aside);
-  const double nearest = across2 > 1e-12 ? -glm::dot(from_base, aside) / across2 : 0;
+  const double nearest = across2 > 1e-12 ? std::clamp(-glm::dot(from_base, aside) / across2, -reach, reach) : 0;
   const Vec3 from_base_there = from_base + nearest * direction;
   const double y0 = glm::dot(from_base_there, axis);
   const Vec3 beside = from_base_there - y0 * axis;
@@ -365,6 +367,7 @@ LineCone line_cone(const ConeRecord& record, ConeKind kind, const Vec3& origin, 
           static_cast<float>(y0),
           static_cast<float>(y1),
           static_cast<float>(glm::dot(beside, beside)),
+          static_cast<float>(2 * glm::dot(beside, aside)),
           static_cast<float>(across2)};
 }
 

@@ -49,12 +49,13 @@ LocalCone local_cone(const ConeRecord& record, ConeKind kind, const Vec3& origin
 void sum_cones(std::span<const LocalCone> cones, const PointBatch& points, const FieldColumns& out);
 
 /// A cone as a line sees it: with d = t - nearest, the height over its base along the axis is y0 + y1 d and the square
-/// of the distance from the axis rho2 + across2 d^2.
+/// of the distance from the axis rho2 + slope d + across2 d^2.
 struct LineCone : ConeShape {
-  float nearest, y0, y1, rho2, across2;
+  float nearest, y0, y1, rho2, slope, across2;
 };
-/// `origin` is the line's point at t = 0; t is in units of the model.
-LineCone line_cone(const ConeRecord& record, ConeKind kind, const Vec3& origin, const Vec3& direction, double scale);
+/// `origin` is the line's point at t = 0; t is in units of the model and at most `reach` in size.
+LineCone line_cone(const ConeRecord& record, ConeKind kind, const Vec3& origin, const Vec3& direction, double scale,
+                   double reach);
 
 /// The sum of the cones' fields at kBatchGranule points of the line.
 void sum_cones_along(std::span<const LineCone> cones, const float* t, float* f);

@@ -70,12 +70,12 @@ class Machine {
   }
 
   /// From now on the first column of points is the parameter along a line, in units of the model from `origin` on.
-  void follow_line(const Vec3& origin, const Vec3& direction) {
+  void follow_line(const Vec3& origin, const Vec3& direction, double reach) {
     std::vector<LineCone>& cones = scratch_.line_cones;
     cones.clear();
     for (const ConeReference& reference : program_.cones) {
       cones.push_back(line_cone(model_.cones[reference.cone], static_cast<ConeKind>(reference.kind), origin, direction,
-                                model_.units.scale));
+                                model_.units.scale, reach));
     }
     is_on_line_ = true;
   }
@@ -351,7 +351,8 @@ std::optional<double> search_along(const FieldModel& model, const FieldProgram& 
   Machine machine(model, program, kSamples, false, scratch_of_thread());
   const double middle = 0.5 * (range.lo + range.hi);
   const bool follows = machine.can_follow_line();
-  follows ? machine.follow_line(ray.at(middle), ray.direction) : machine.set_origin(ray.at(middle));
+  follows ? machine.follow_line(ray.at(middle), ray.direction, 0.5 * model.units.scale * (range.hi - range.lo))
+          : machine.set_origin(ray.at(middle));
   const auto sample = [&](const Interval& part, std::array<float, kSamples>& values) {
     const auto first = static_cast<float>(model.units.scale * (part.lo - middle));
     const auto step = static_cast<float>(model.units.scale * (part.hi - part.lo) / (kSamples - 1));

@@ -173,7 +173,7 @@ TEST_CASE("cones at points of a line agree with their formulas to 1e-5, on every
       const auto* faded = std::get_if<FadedCone>(&node.what);
       const ConeRecord record = faded ? record_of(*faded, 1) : record_of(std::get<Cone>(node.what), 1);
       const LineCone cone =
-          line_cone(record, faded ? kind_of_faded(record) : ConeKind::kPlain, ray.origin, ray.direction, 1);
+          line_cone(record, faded ? kind_of_faded(record) : ConeKind::kPlain, ray.origin, ray.direction, 1, 1.5);
       std::array<float, kBatchGranule> t, f;
       for (float& x : t) x = static_cast<float>(random.uniform(-1.5, 1.5));
       sum_cones_along({&cone, 1}, t.data(), f.data());
