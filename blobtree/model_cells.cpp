@@ -9,6 +9,7 @@
 #include "base/large_room.h"
 #include "blobtree/falloff.h"
 #include "blobtree/line_cones.h"
+#include "blobtree/primitive.h"
 #include "blobtree/tube.h"
 
 namespace barkridge {
@@ -188,21 +189,17 @@ constexpr double kCoarseness = 16;
 // The step may be longer where the field bends up, whose chords are bounded by nothing.
 constexpr double kLongestStep = 4 * kCoarseness;
 
-Vec3 gradient_at(const FieldModel& model, const FieldProgram& program, const Vec3& point) {
-  double value = 0;
-  Vec3 gradient{0};
-  evaluate(model, program, {&point, 1}, {&value, 1}, {&gradient, 1});
-  return gradient;
+FieldSample sample_at(const FieldModel& model, const FieldProgram& program, const Vec3& point) {
+  FieldSample sample;
+  evaluate(model, program, {&point, 1}, {&sample.value, 1}, {&sample.gradient, 1});
+  return sample;
 }
 
 // A root on a ray after the step, whose error is quadratic in what was left, and the gradient; nothing where the step
 // would be longer than `longest`.
 std::optional<SurfacePoint> polished(const FieldModel& model, const FieldProgram& program, const Ray& ray, double t,
                                      const Interval& range, double longest) {
-  const Vec3 point = ray.at(t);
-  double value = 0;
-  Vec3 gradient{0};
-  evaluate(model, program, {&point, 1}, {&value, 1}, {&gradient, 1});
+  const auto [value, gradient] = sample_at(model, program, ray.at(t));
   if (t <= range.lo) return SurfacePoint{t, gradient};
   const double step = (kIsoValue - value) / glm::dot(gradient, ray.direction);
   if (!(std::abs(step) <= longest)) return std::nullopt;
@@ -314,7 +311,7 @@ class ModelCells final : public SurfaceCells {
     const std::optional<double> exact = search_along(*model_, rest, bounds, ray, reach, tolerance, tolerance, false);
     if (!exact) return std::nullopt;
     const auto point = polished(*model_, rest, ray, *exact, range, tolerance);
-    return point ? point : SurfacePoint{*exact, gradient_at(*model_, rest, ray.at(*exact))};
+    return point ? point : SurfacePoint{*exact, sample_at(*model_, rest, ray.at(*exact)).gradient};
   }
 
   std::span<const std::uint32_t> primitives_of(const Cell& cell) const {
