@@ -18,10 +18,11 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
     {"mesh", {"base"}},
     {"lsystem", {"base"}},
     {"blobtree", {"base", "lsystem/skeleton.h"}},
+    {"subdivision", {"base", "mesh", "lsystem/skeleton.h"}},
     {"polygonize", {"base", "mesh", "blobtree/field.h"}},
     {"raytrace", {"base", "mesh", "blobtree/field.h"}},
-    {"scene", {"base", "mesh", "lsystem", "blobtree", "polygonize", "raytrace"}},
-    {"cli", {"base", "mesh", "lsystem", "blobtree", "polygonize", "raytrace", "scene"}},
+    {"scene", {"base", "mesh", "lsystem", "blobtree", "subdivision", "polygonize", "raytrace"}},
+    {"cli", {"base", "mesh", "lsystem", "blobtree", "subdivision", "polygonize", "raytrace", "scene"}},
 };
 
 // The header that a line includes in quotes, or nothing.
