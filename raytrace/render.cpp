@@ -62,7 +62,7 @@ class TileRenderer {
         camera_(scene.camera, options.width, options.height),
         path_(tracer, scene, options.bounces),
         layout_(options.seed, options.width, options.height, options.samples_per_pixel),
-        seen_(tracer.cells(), camera_, with_neighbours(region)),
+        seen_(tracer, camera_, with_neighbours(region)),
         plain_background_(path_.plain_background()) {}
 
   // Renders the pixels of `tile`, and the first samples of those around it, which decide about further ones.
@@ -155,18 +155,13 @@ class SharedProgress {
   std::mutex mutex_;
 };
 
-}  // namespace
-
-Image render(const Field& field, const RenderScene& scene, const RenderOptions& options) {
-  check(scene);
-  check(options);
+Image render_traced(const Tracer& tracer, const RenderScene& scene, const RenderOptions& options) {
   Image image{options.width, options.height, options.region, {}};
   if (image.region.width == 0) image.region = {0, 0, options.width, options.height};
   const PixelRegion& region = image.region;
   const std::size_t pixels = static_cast<std::size_t>(region.width) * static_cast<std::size_t>(region.height);
   resize_large(image.rgba, 4 * pixels);
 
-  const Tracer tracer(field, options.progress);
   const TileRenderer renderer(tracer, scene, options, region);
   SharedProgress progress(options.progress, pixels);
   const tbb::blocked_range2d<int> tiles(0, (region.height + kTileSize - 1) / kTileSize, 1, 0,
@@ -186,6 +181,20 @@ Image render(const Field& field, const RenderScene& scene, const RenderOptions& 
       },
       tbb::simple_partitioner());
   return image;
+}
+
+}  // namespace
+
+Image render(const Field& field, const RenderScene& scene, const RenderOptions& options) {
+  check(scene);
+  check(options);
+  return render_traced(Tracer(field, options.progress), scene, options);
+}
+
+Image render(const Mesh& mesh, const RenderScene& scene, const RenderOptions& options) {
+  check(scene);
+  check(options);
+  return render_traced(Tracer(mesh, options.progress), scene, options);
 }
 
 }  // namespace barkridge

@@ -6,6 +6,7 @@
 
 #include "base/progress.h"
 #include "blobtree/field.h"
+#include "mesh/mesh.h"
 
 namespace barkridge {
 
@@ -98,5 +99,7 @@ struct Image {
 /// not of region, threads or machine load. Rays find the first point of the solid to 1e-6 of the scene's size; nothing
 /// is stepped over. Throws `InputError` for settings outside their ranges, `Cancelled`.
 Image render(const Field& field, const RenderScene& scene, const RenderOptions& options);
+/// The same for a mesh, shaded by its vertex normals, or flat if it has none. An open mesh is seen from both sides.
+Image render(const Mesh& mesh, const RenderScene& scene, const RenderOptions& options);
 
 }  // namespace barkridge

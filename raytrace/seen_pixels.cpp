@@ -40,11 +40,11 @@ glm::ivec2 pixels_that_reach(const Interval& interval, int first, int count) {
 
 }  // namespace
 
-SeenPixels::SeenPixels(const SurfaceCells& cells, const CameraRays& camera, const PixelRegion& region)
+SeenPixels::SeenPixels(const Tracer& tracer, const CameraRays& camera, const PixelRegion& region)
     : region_(region), marks_(static_cast<std::size_t>(region.width) * static_cast<std::size_t>(region.height)) {
   std::atomic<bool> all = false;
-  tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t cell) {
-    const Rectangle seen = seen_rectangle(cells.box(cell), camera);
+  tbb::parallel_for(std::size_t{0}, tracer.part_count(), [&](std::size_t part) {
+    const Rectangle seen = seen_rectangle(tracer.part(part), camera);
     if (!seen.is_known) all.store(true, std::memory_order_relaxed);
     if (all.load(std::memory_order_relaxed)) return;
     const glm::ivec2 columns = pixels_that_reach(seen.x, region.x, region.width),

@@ -4,18 +4,18 @@
 #include <cstdint>
 #include <vector>
 
-#include "blobtree/field.h"
 #include "raytrace/camera.h"
+#include "raytrace/tracer.h"
 
 namespace barkridge {
 
 /// Of the pixels of a region.
 class SeenPixels {
  public:
-  /// Marks the pixels whose filter may reach a cell. Cost: in proportion to the cells and the pixels that they cover.
-  SeenPixels(const SurfaceCells& cells, const CameraRays& camera, const PixelRegion& region);
+  /// Marks the pixels whose filter may reach a part. Cost: in proportion to the parts and the pixels that they cover.
+  SeenPixels(const Tracer& tracer, const CameraRays& camera, const PixelRegion& region);
 
-  /// Whether a ray through the pixel's filter, of one pixel to either side of its centre, can meet a cell.
+  /// Whether a ray through the pixel's filter, of one pixel to either side of its centre, can meet a part.
   bool may_see(int x, int y) const { return all_ || marks_[index(x, y)] != 0; }
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// Rays against the solid of a field.
+// Rays against the solid of a field, or against a mesh.
 
 #include <limits>
 #include <memory>
@@ -7,51 +7,59 @@
 
 #include "base/progress.h"
 #include "blobtree/field.h"
+#include "mesh/mesh.h"
 
 namespace barkridge {
 
-/// Where a ray meets the solid.
+/// Where a ray meets a surface.
 struct Hit {
   double t = 0;
   Vec3 point{0};
-  /// Outward unit normal, by the field's gradient; against the ray where the gradient vanishes.
+  /// Unit normal for shading: a field's gradient, or the mix of a mesh's vertex normals. Outward, or against the ray
+  /// where a gradient vanishes; of a mesh met from behind, the normal of that side.
   Vec3 normal{0};
-  /// A distance along the normal at which other rays can start without meeting this same surface again: a
-  /// ten-thousandth of the length over which the field changes, and never less than the tracer's tolerance allows.
+  /// The unit normal of the surface itself, which for a field is the same.
+  Vec3 outward{0};
+  /// A distance along `outward` at which other rays can start without meeting this same surface again: small against
+  /// all features, and never less than the tracer's tolerance allows.
   double clearance = 0;
 
-  Vec3 outside_point() const { return point + clearance * normal; }
+  Vec3 outside_point() const { return point + clearance * outward; }
 };
 
-/// Finds where rays meet the solid { F >= kIsoValue }. Immutable; every member may be called from many threads at once.
+class TracedScene;
+
+/// Finds where rays meet the solid { F >= kIsoValue }, or the triangles of a mesh. Immutable; every member may be
+/// called from many threads at once.
 class Tracer {
  public:
-  /// Prepares the field for rays, on all threads. Keeps no reference to `field` itself. Throws `Cancelled` by
+  /// Prepares field or mesh for rays, on all threads. Keeps no reference to field or mesh. Throws `Cancelled` by
   /// `progress`.
   explicit Tracer(const Field& field, const Progress& progress = {});
+  explicit Tracer(const Mesh& mesh, const Progress& progress = {});
   ~Tracer();
   Tracer(Tracer&&) noexcept;
   Tracer& operator=(Tracer&&) noexcept;
 
-  /// The first point of the solid along the ray with t in [t_min, t_max]; that is t_min for a ray that starts inside.
-  /// Nothing is missed that is thicker than `tolerance()` along the ray and that the field exceeds the iso-value in by
-  /// more than 1e-5, at any distance; t is exact to `tolerance()`.
+  /// The first point of the solid along the ray (of a mesh, of its triangles, from either side) with t in [t_min,
+  /// t_max]; that is t_min for a ray that starts inside. Nothing is missed that is thicker than `tolerance()` along the
+  /// ray and that the field exceeds the iso-value in by more than 1e-5, at any distance; t is exact to `tolerance()`.
   std::optional<Hit> first_hit(const Ray& ray, double t_min = 0,
                                double t_max = std::numeric_limits<double>::infinity()) const;
 
   /// Whether `first_hit` would find something. Cheaper.
   bool occluded(const Ray& ray, double t_min = 0, double t_max = std::numeric_limits<double>::infinity()) const;
 
-  /// Those of the field, between which rays are traversed. They live as long as the tracer.
-  const SurfaceCells& cells() const;
-  /// A box that holds the solid; empty when there is none.
+  /// Boxes that together hold all that there is to meet: a field's cells, a mesh's triangles.
+  std::size_t part_count() const;
+  Box part(std::size_t index) const;
+  /// Holds them; empty when there is nothing.
   const Box& scene_box() const;
   /// 6e-8 of the diagonal of `scene_box()`.
   double tolerance() const;
 
  private:
-  struct Scene;
-  std::unique_ptr<Scene> scene_;
+  std::unique_ptr<const TracedScene> scene_;
 };
 
 }  // namespace barkridge
