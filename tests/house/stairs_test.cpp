@@ -22,7 +22,8 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
     {"polygonize", {"base", "mesh", "blobtree/field.h"}},
     {"raytrace", {"base", "mesh", "blobtree/field.h"}},
     {"scene", {"base", "mesh", "lsystem", "blobtree", "subdivision", "polygonize", "raytrace"}},
-    {"cli", {"base", "mesh", "lsystem", "blobtree", "subdivision", "polygonize", "raytrace", "scene"}},
+    {"study", {"base", "mesh", "lsystem", "blobtree", "subdivision", "polygonize", "raytrace", "scene"}},
+    {"cli", {"base", "mesh", "lsystem", "blobtree", "subdivision", "polygonize", "raytrace", "scene", "study"}},
 };
 
 // The header that a line includes in quotes, or nothing.
