@@ -78,8 +78,7 @@ std::unique_ptr<Far::TopologyRefiner> refine(const ControlMesh& mesh, int levels
                                                    : Sdc::Options::VTX_BOUNDARY_EDGE_ONLY);
   options.SetFVarLinearInterpolation(Sdc::Options::FVAR_LINEAR_BOUNDARIES);
   using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
-  std::unique_ptr<Far::TopologyRefiner> refiner(
-      Factory::Create(topology, Factory::Options(Sdc::SCHEME_LOOP, options)));
+  std::unique_ptr<Far::TopologyRefiner> refiner(Factory::Create(topology, Factory::Options(Sdc::SCHEME_LOOP, options)));
   Far::TopologyRefiner::UniformOptions uniform(levels);
   uniform.fullTopologyInLastLevel = true;
   refiner->RefineUniform(uniform);
@@ -203,8 +202,8 @@ TEST_CASE("a step of several refines as many steps of one") {
     float worst = 0;
     for (std::size_t t = 0; t < once.triangles.size(); ++t) {
       for (std::size_t i = 0; i < 3; ++i) {
-        worst = std::max(worst, glm::length(steps.positions[steps.triangles[t][i]] -
-                                            once.positions[once.triangles[t][i]]));
+        worst =
+            std::max(worst, glm::length(steps.positions[steps.triangles[t][i]] - once.positions[once.triangles[t][i]]));
         worst = std::max(worst, glm::length(steps.texture[steps.texture_triangles[t][i]] -
                                             once.texture[once.texture_triangles[t][i]]));
       }
