@@ -46,4 +46,7 @@ struct ControlMesh {
 /// arrays of the wrong size, a number that is not finite, a sharp edge that no triangle has, a sharpness not above 0.
 void check(const ControlMesh& mesh);
 
+/// Throws as `check` does, and otherwise returns who is next to whom (subdivision/half_edges.h).
+struct HalfEdges connect(const ControlMesh& mesh);
+
 }  // namespace barkridge

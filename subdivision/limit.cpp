@@ -1,0 +1,30 @@
+#include "subdivision/limit.h"
+
+#include <tbb/parallel_for.h>
+
+#include "base/large_room.h"
+#include "subdivision/loop_level.h"
+
+namespace barkridge {
+
+LimitSurface limit_surface(const ControlMesh& mesh, int levels, const LoopOptions& options) {
+  LoopLevel level = refined_level(mesh, levels, Refine::connectivity, options);
+  const std::size_t vertex_count = level.surface.values.size();
+  LimitSurface limit;
+  resize_large(limit.mesh.positions, vertex_count);
+  resize_large(limit.mesh.normals, vertex_count);
+  tbb::parallel_for(std::size_t{0}, vertex_count, [&](std::size_t i) {
+    const auto v = static_cast<std::uint32_t>(i);
+    limit.mesh.positions[i] = limit_value(level.surface, v);
+    limit.mesh.normals[i] = limit_normal(level.surface, v);
+  });
+  resize_large(limit.texture, level.charts.values.size());
+  tbb::parallel_for(std::size_t{0}, limit.texture.size(), [&](std::size_t i) {
+    limit.texture[i] = limit_value(level.charts, static_cast<std::uint32_t>(i));
+  });
+  limit.mesh.triangles = std::move(level.surface.mesh.triangles);
+  limit.texture_triangles = std::move(level.charts.mesh.triangles);
+  return limit;
+}
+
+}  // namespace barkridge

@@ -1,0 +1,244 @@
+#include "subdivision/ring.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+namespace barkridge {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// So many steps leave less of a ring than doubles can tell.
+constexpr double kForEver = 32;
+// A dart's ring is within 0.66^n of its limit after n steps, and as near to flat after half as many.
+constexpr int kDartSteps = 50, kDartNormalSteps = 20;
+
+double decayed(double sharpness) { return sharpness > 1 ? sharpness - 1 : 0.0; }
+
+enum class Rule { smooth, crease, corner };
+
+// What a vertex is, and the neighbours along its crease if it is one.
+struct Kind {
+  Rule rule = Rule::smooth;
+  int sharp_edges = 0;
+  std::array<std::size_t, 2> crease{};
+};
+
+// The kind after `steps` steps, which may be 0 or 1.
+template <class Value>
+Kind kind_of(const Ring<Value>& ring, int steps) {
+  const auto sharp = [&](double sharpness) { return steps == 0 ? sharpness > 0 : sharpness > 1; };
+  Kind kind;
+  for (std::size_t i = 0; i < ring.neighbours.size(); ++i) {
+    if (!sharp(ring.sharpness[i])) continue;
+    if (kind.sharp_edges < 2) kind.crease[static_cast<std::size_t>(kind.sharp_edges)] = i;
+    ++kind.sharp_edges;
+  }
+  if (sharp(ring.center_sharpness) || kind.sharp_edges > 2) {
+    kind.rule = Rule::corner;
+  } else if (kind.sharp_edges == 2) {
+    kind.rule = Rule::crease;
+  }
+  return kind;
+}
+
+template <class Value>
+Value sum(const std::vector<Value>& values) {
+  Value total(0);
+  for (const Value& value : values) total += value;
+  return total;
+}
+
+template <class Value>
+Value by_rule(const Ring<Value>& ring, const Kind& kind) {
+  if (kind.rule == Rule::corner) return ring.center;
+  if (kind.rule == Rule::crease) {
+    return 0.75 * ring.center + 0.125 * (ring.neighbours[kind.crease[0]] + ring.neighbours[kind.crease[1]]);
+  }
+  const auto valence = static_cast<double>(ring.neighbours.size());
+  const double weight = neighbour_weight(ring.neighbours.size());
+  return (1 - valence * weight) * ring.center + weight * sum(ring.neighbours);
+}
+
+// The mean of all sharpnesses that run out in this step, at most 1.
+template <class Value>
+double share_of_sharper_rule(const Ring<Value>& ring) {
+  double total = 0;
+  int count = 0;
+  const auto add = [&](double sharpness) {
+    if (sharpness <= 0 || sharpness > 1) return;
+    total += sharpness;
+    ++count;
+  };
+  add(ring.center_sharpness);
+  for (const double sharpness : ring.sharpness) add(sharpness);
+  return count == 0 ? 0.0 : total / count;
+}
+
+template <class Value>
+bool is_semi_sharp(const Ring<Value>& ring) {
+  const auto finite = [](double sharpness) { return sharpness > 0 && sharpness <= kForEver; };
+  return finite(ring.center_sharpness) || std::any_of(ring.sharpness.begin(), ring.sharpness.end(), finite);
+}
+
+template <class Value>
+Ring<Value> after_sharpness(Ring<Value> ring) {
+  while (is_semi_sharp(ring)) {
+    ring = refined(std::move(ring));
+    // What counts as infinite stays so.
+    const auto keep = [](double& sharpness) {
+      if (sharpness > kForEver - 1) sharpness = kInfinity;
+    };
+    keep(ring.center_sharpness);
+    for (double& sharpness : ring.sharpness) keep(sharpness);
+  }
+  return ring;
+}
+
+// The sum of the ring's triangles' normals, by area.
+glm::dvec3 mean_normal(const Ring<glm::dvec3>& ring) {
+  const std::size_t n = ring.neighbours.size();
+  glm::dvec3 total(0);
+  for (std::size_t i = 0; i + (ring.closed ? 0 : 1) < n; ++i) {
+    total += glm::cross(ring.neighbours[i] - ring.center, ring.neighbours[(i + 1) % n] - ring.center);
+  }
+  return total;
+}
+
+glm::dvec3 unit_or_zero(const glm::dvec3& v) {
+  const double length = glm::length(v);
+  return length > 0 && std::isfinite(length) ? v / length : glm::dvec3(0);
+}
+
+// From the left eigenvectors of the subdominant eigenvalue of a smooth ring [HDD94].
+glm::dvec3 smooth_normal(const Ring<glm::dvec3>& ring) {
+  const std::size_t n = ring.neighbours.size();
+  const double angle = 2 * std::numbers::pi / static_cast<double>(n);
+  glm::dvec3 u(0), v(0);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double a = angle * static_cast<double>(i);
+    u += std::cos(a) * ring.neighbours[i];
+    v += std::sin(a) * ring.neighbours[i];
+  }
+  return glm::cross(u, v);
+}
+
+// The normal of the fan of `count` triangles that starts at neighbour `first`, between two sharp edges at a crease.
+// Along the crease the eigenvalue is 1/2. Across it, of `k` triangles, it is `3/8 + cos(pi / k) / 4`, of which the left
+// eigenvector is `sin(i pi / k)` at the neighbours between; the entries at the crease and at the vertex follow from the
+// columns of the ring's matrix. (For three triangles this is the well-known 2, 2; -1, -1; -2.) One triangle bends by
+// the crease alone.
+glm::dvec3 side_normal(const Ring<glm::dvec3>& ring, std::size_t first, std::size_t count) {
+  const auto at = [&](std::size_t i) { return ring.neighbours[(first + i) % ring.neighbours.size()]; };
+  const glm::dvec3 along = at(0) - at(count);
+  if (count == 1) return glm::cross(along, at(0) + at(1) - 2.0 * ring.center);
+  const double angle = std::numbers::pi / static_cast<double>(count), c = std::cos(angle), s = std::sin(angle);
+  const double ends = -s * c / ((1 - c) * (1 + 2 * c));
+  glm::dvec3 across = ends * (at(0) + at(count));
+  double total = 2 * ends;
+  for (std::size_t i = 1; i < count; ++i) {
+    const double weight = std::sin(angle * static_cast<double>(i));
+    across += weight * at(i);
+    total += weight;
+  }
+  return glm::cross(along, across - total * ring.center);
+}
+
+glm::dvec3 crease_normal(const Ring<glm::dvec3>& ring, const Kind& kind) {
+  const auto [first, last] = kind.crease;
+  glm::dvec3 total = unit_or_zero(side_normal(ring, first, last - first));
+  if (ring.closed) total += unit_or_zero(side_normal(ring, last, first + ring.neighbours.size() - last));
+  return total;
+}
+
+template <class Value>
+Ring<Value> refined_often(Ring<Value> ring, int steps) {
+  for (int i = 0; i < steps; ++i) ring = refined(std::move(ring));
+  return ring;
+}
+
+}  // namespace
+
+double neighbour_weight(std::size_t valence) {
+  if (valence == 6) return 1.0 / 16;
+  const auto n = static_cast<double>(valence);
+  const double half = 3.0 / 8 + std::cos(2 * std::numbers::pi / n) / 4;
+  return (5.0 / 8 - half * half) / n;
+}
+
+template <class Value>
+Value refined_center(const Ring<Value>& ring) {
+  const Kind before = kind_of(ring, 0), after = kind_of(ring, 1);
+  const Value sharper = by_rule(ring, before);
+  if (before.rule == Rule::smooth || before.rule == after.rule) return sharper;
+  const double share = share_of_sharper_rule(ring);
+  return share * sharper + (1 - share) * by_rule(ring, after);
+}
+
+template <class Value>
+Ring<Value> refined(Ring<Value> ring) {
+  const std::size_t n = ring.neighbours.size();
+  const std::vector<Value> old = ring.neighbours;
+  const Value center = refined_center(ring);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Value middle = 0.5 * (ring.center + old[i]);
+    const double sharp = std::min(ring.sharpness[i], 1.0);
+    if (sharp < 1) {
+      const Value smooth = 0.375 * (ring.center + old[i]) + 0.125 * (old[(i + n - 1) % n] + old[(i + 1) % n]);
+      ring.neighbours[i] = sharp * middle + (1 - sharp) * smooth;
+    } else {
+      ring.neighbours[i] = middle;
+    }
+    ring.sharpness[i] = decayed(ring.sharpness[i]);
+  }
+  ring.center = center;
+  ring.center_sharpness = decayed(ring.center_sharpness);
+  return ring;
+}
+
+template <class Value>
+Value limit_position(Ring<Value> ring) {
+  if (is_semi_sharp(ring)) ring = after_sharpness(std::move(ring));
+  const Kind kind = kind_of(ring, 0);
+  if (kind.rule == Rule::corner) return ring.center;
+  if (kind.rule == Rule::crease) {
+    return (4.0 * ring.center + ring.neighbours[kind.crease[0]] + ring.neighbours[kind.crease[1]]) / 6.0;
+  }
+  if (kind.sharp_edges == 1) return refined_often(std::move(ring), kDartSteps).center;
+  const auto valence = static_cast<double>(ring.neighbours.size());
+  const double weight = 1 / (valence + 3 / (8 * neighbour_weight(ring.neighbours.size())));
+  return (1 - valence * weight) * ring.center + weight * sum(ring.neighbours);
+}
+
+glm::dvec3 limit_normal(Ring<glm::dvec3> ring) {
+  const glm::dvec3 mean = mean_normal(ring);
+  if (is_semi_sharp(ring)) ring = after_sharpness(std::move(ring));
+  const Kind kind = kind_of(ring, 0);
+  glm::dvec3 normal(0);
+  if (kind.rule == Rule::crease) {
+    normal = crease_normal(ring, kind);
+  } else if (kind.rule == Rule::smooth && kind.sharp_edges == 0) {
+    normal = smooth_normal(ring);
+  } else if (kind.rule == Rule::smooth) {
+    normal = mean_normal(refined_often(std::move(ring), kDartNormalSteps));
+  }
+  for (const glm::dvec3& candidate : {normal, mean, glm::dvec3(0, 1, 0)}) {
+    const glm::dvec3 unit = unit_or_zero(candidate);
+    if (unit != glm::dvec3(0)) return unit;
+  }
+  return {};
+}
+
+template glm::dvec2 refined_center(const Ring<glm::dvec2>&);
+template glm::dvec3 refined_center(const Ring<glm::dvec3>&);
+template Ring<glm::dvec2> refined(Ring<glm::dvec2>);
+template Ring<glm::dvec3> refined(Ring<glm::dvec3>);
+template glm::dvec2 limit_position(Ring<glm::dvec2>);
+template glm::dvec3 limit_position(Ring<glm::dvec3>);
+
+}  // namespace barkridge
