@@ -8,8 +8,10 @@
 #include <bit>
 #include <cassert>
 #include <cctype>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <initializer_list>
 #include <limits>
 #include <string_view>
 
@@ -36,52 +38,114 @@ std::string comment_lines(std::string_view comment, std::string_view prefix) {
   return text;
 }
 
+// From linear light to what files hold of colours, in [0, 1]. [IEC 61966-2-1]
+glm::vec3 srgb(const glm::vec3& linear) {
+  glm::vec3 encoded;
+  for (int c = 0; c < 3; ++c) {
+    const double x = std::clamp(static_cast<double>(linear[c]), 0.0, 1.0);
+    encoded[c] = static_cast<float>(x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055);
+  }
+  return encoded;
+}
+
+const auto& texture_triangles(const Mesh& mesh) {
+  return mesh.texture_triangles.empty() ? mesh.triangles : mesh.texture_triangles;
+}
+
 void write_obj(const Mesh& mesh, const MeshWriteOptions& options, OutputFile& file) {
   file.write(comment_lines(options.comment, "# "));
   fmt::memory_buffer line;
   const auto put = [&] {
+    line.push_back('\n');
     file.write(line.data(), line.size());
     line.clear();
     return !file.failed();
   };
-  for (const glm::vec3& p : mesh.positions) {
-    fmt::format_to(std::back_inserter(line), FMT_COMPILE("v {} {} {}\n"), p.x, p.y, p.z);
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const glm::vec3& p = mesh.positions[i];
+    fmt::format_to(std::back_inserter(line), FMT_COMPILE("v {} {} {}"), p.x, p.y, p.z);
+    if (!mesh.colors.empty()) {
+      const glm::vec3 color = srgb(mesh.colors[i]);
+      fmt::format_to(std::back_inserter(line), FMT_COMPILE(" {} {} {}"), color.x, color.y, color.z);
+    }
+    if (!put()) return;
+  }
+  for (const glm::vec2& t : mesh.texture) {
+    fmt::format_to(std::back_inserter(line), FMT_COMPILE("vt {} {}"), t.x, t.y);
     if (!put()) return;
   }
   for (const glm::vec3& n : mesh.normals) {
-    fmt::format_to(std::back_inserter(line), FMT_COMPILE("vn {} {} {}\n"), n.x, n.y, n.z);
+    fmt::format_to(std::back_inserter(line), FMT_COMPILE("vn {} {} {}"), n.x, n.y, n.z);
     if (!put()) return;
   }
-  for (const auto& triangle : mesh.triangles) {
+  const auto index = [](std::uint32_t zero_based) { return std::uint64_t{zero_based} + 1; };
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     line.push_back('f');
-    for (const std::uint64_t zero_based : triangle) {
-      const std::uint64_t i = zero_based + 1;
-      if (mesh.normals.empty()) {
-        fmt::format_to(std::back_inserter(line), FMT_COMPILE(" {}"), i);
-      } else {
-        fmt::format_to(std::back_inserter(line), FMT_COMPILE(" {}//{}"), i, i);
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const std::uint64_t v = index(mesh.triangles[i][corner]);
+      fmt::format_to(std::back_inserter(line), FMT_COMPILE(" {}"), v);
+      if (!mesh.texture.empty()) {
+        fmt::format_to(std::back_inserter(line), FMT_COMPILE("/{}"), index(texture_triangles(mesh)[i][corner]));
+      } else if (!mesh.normals.empty()) {
+        line.push_back('/');
       }
+      if (!mesh.normals.empty()) fmt::format_to(std::back_inserter(line), FMT_COMPILE("/{}"), v);
     }
-    line.push_back('\n');
     if (!put()) return;
   }
 }
 
-void write_ply(const Mesh& mesh, const MeshWriteOptions& options, OutputFile& file) {
-  const bool has_normals = !mesh.normals.empty();
-  std::string header = "ply\nformat binary_little_endian 1.0\n" + comment_lines(options.comment, "comment ");
-  header +=
-      fmt::format("element vertex {}\nproperty float x\nproperty float y\nproperty float z\n", mesh.positions.size());
-  if (has_normals) header += "property float nx\nproperty float ny\nproperty float nz\n";
-  header += fmt::format("element face {}\nproperty list uchar int vertex_indices\nend_header\n", mesh.triangles.size());
-  file.write(header);
+std::string ply_header(const Mesh& mesh, const std::string& comment) {
+  std::string header = "ply\nformat binary_little_endian 1.0\n" + comment_lines(comment, "comment ");
+  const auto properties = [&](const char* type, std::initializer_list<const char*> names) {
+    for (const char* name : names) header += fmt::format("property {} {}\n", type, name);
+  };
+  header += fmt::format("element vertex {}\n", mesh.positions.size());
+  properties("float", {"x", "y", "z"});
+  if (!mesh.normals.empty()) properties("float", {"nx", "ny", "nz"});
+  if (!mesh.texture.empty() && mesh.texture_triangles.empty()) properties("float", {"s", "t"});
+  if (!mesh.colors.empty()) properties("uchar", {"red", "green", "blue"});
+  for (const MeshAttribute& attribute : mesh.attributes) {
+    const bool is_real = std::holds_alternative<std::vector<float>>(attribute.values);
+    properties(is_real ? "float" : "int", {attribute.name.c_str()});
+  }
+  header += fmt::format("element face {}\n", mesh.triangles.size());
+  properties("list uchar int", {"vertex_indices"});
+  if (!mesh.texture_triangles.empty()) properties("list uchar float", {"texcoord"});
+  return header + "end_header\n";
+}
+
+void write_ply_vertices(const Mesh& mesh, OutputFile& file) {
   for (std::size_t i = 0; i < mesh.positions.size() && !file.failed(); ++i) {
     file.write(&mesh.positions[i], sizeof(glm::vec3));
-    if (has_normals) file.write(&mesh.normals[i], sizeof(glm::vec3));
+    if (!mesh.normals.empty()) file.write(&mesh.normals[i], sizeof(glm::vec3));
+    if (!mesh.texture.empty() && mesh.texture_triangles.empty()) file.write(&mesh.texture[i], sizeof(glm::vec2));
+    if (!mesh.colors.empty()) {
+      const glm::vec3 color = srgb(mesh.colors[i]);
+      std::array<std::uint8_t, 3> bytes{};
+      for (int c = 0; c < 3; ++c) bytes[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(255 * color[c] + 0.5f);
+      file.write(bytes.data(), bytes.size());
+    }
+    for (const MeshAttribute& attribute : mesh.attributes) {
+      std::visit([&](const auto& values) { file.write(&values[i], sizeof values[i]); }, attribute.values);
+    }
   }
+}
+
+void write_ply(const Mesh& mesh, const MeshWriteOptions& options, OutputFile& file) {
+  file.write(ply_header(mesh, options.comment));
+  write_ply_vertices(mesh, file);
   for (std::size_t i = 0; i < mesh.triangles.size() && !file.failed(); ++i) {
-    std::array<char, 13> face{3};
+    std::array<char, 38> face{3};
     std::memcpy(face.data() + 1, mesh.triangles[i].data(), 12);
+    if (mesh.texture_triangles.empty()) {
+      file.write(face.data(), 13);
+      continue;
+    }
+    face[13] = 6;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      std::memcpy(face.data() + 14 + 8 * corner, &mesh.texture[mesh.texture_triangles[i][corner]], 8);
+    }
     file.write(face.data(), face.size());
   }
 }
@@ -105,6 +169,18 @@ void write_stl(const Mesh& mesh, OutputFile& file) {
     file.write(facet.data(), facet.size());
     if (file.failed()) return;
   }
+}
+
+// What the mesh's contract says about sizes.
+[[maybe_unused]] bool is_consistent(const Mesh& mesh) {
+  const std::size_t vertices = mesh.positions.size();
+  const auto fits = [](std::size_t size, std::size_t wanted) { return size == 0 || size == wanted; };
+  return fits(mesh.normals.size(), vertices) && fits(mesh.colors.size(), vertices) &&
+         fits(mesh.texture_triangles.size(), mesh.triangles.size()) &&
+         (!mesh.texture_triangles.empty() || fits(mesh.texture.size(), vertices)) &&
+         std::all_of(mesh.attributes.begin(), mesh.attributes.end(), [&](const MeshAttribute& attribute) {
+           return std::visit([&](const auto& values) { return values.size() == vertices; }, attribute.values);
+         });
 }
 
 void check_counts(const Mesh& mesh, MeshFormat format) {
@@ -132,7 +208,7 @@ MeshFormat mesh_format(const std::string& path) {
 }
 
 void write_mesh(const Mesh& mesh, const std::string& path, const MeshWriteOptions& options) {
-  assert(mesh.normals.empty() || mesh.normals.size() == mesh.positions.size());
+  assert(is_consistent(mesh));
   const MeshFormat format = mesh_format(path);
   check_counts(mesh, format);
   OutputFile file(path);

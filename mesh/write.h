@@ -9,9 +9,15 @@
 namespace barkridge {
 
 enum class MeshFormat {
-  obj,  ///< Wavefront OBJ: text, shortest decimals that read back to the same floats
-  ply,  ///< PLY, binary little-endian
-  stl,  ///< STL, binary: loose triangles, each with its own normal; no comment, no shared vertices
+  /// Wavefront OBJ: text, shortest decimals that read back to the same floats. Texture coordinates are `vt`, colours
+  /// stand behind a vertex's coordinates, sRGB from 0 to 1; attributes are left out.
+  obj,
+  /// PLY, binary little-endian. Colours are 8-bit sRGB `red`, `green`, `blue`, attributes are properties of their own
+  /// names. Texture coordinates are `s`, `t` of the vertex; with seams, a list `texcoord` of the face, six numbers, as
+  /// MeshLab has it, so that the vertices stay shared.
+  ply,
+  /// STL, binary: loose triangles, each with its own normal, and nothing else.
+  stl,
 };
 
 struct MeshWriteOptions {
