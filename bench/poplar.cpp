@@ -36,7 +36,7 @@ Numbers make_picture(const Options& options, const std::string& output) {
   const double grown = all.seconds();
   const std::shared_ptr<const Field> field = compile(model.tree);
   const double compiled = all.seconds();
-  const Image image = render(*field, make_render_scene(scene, *field), scene.image);
+  const Image image = render(*field, make_render_scene(scene, model, *field), scene.image);
   const double rendered = all.seconds();
   write_picture(image, scene, model, output);
   const double total = all.seconds();

@@ -127,7 +127,7 @@ class ModelCompiler {
     }
     reserve_large(model_->operators, operators);
     reserve_large(model_->sums, primitives);
-    reserve_large(nodes_, primitives);
+    reserve_large(model_->nodes, primitives);
   }
 
   std::uint32_t add_operator(Op op, std::size_t operand_count, std::size_t index, std::uint32_t parent,
@@ -256,7 +256,7 @@ class ModelCompiler {
       if (has_others_) {
         std::visit([&](const auto& what) { keep_if_other(what, waiting_[i]); }, tree_.nodes[waiting_[i]].what);
       }
-      nodes_.push_back(waiting_[i]);
+      model_->nodes.push_back(waiting_[i]);
       model_->sums.push_back(sum);
     }
     waiting_.resize(first_waiting);
@@ -265,17 +265,17 @@ class ModelCompiler {
   template <typename Shape>
   void keep_if_other(const Shape& shape, NodeId id) {
     if constexpr (std::is_constructible_v<std::variant<Disc, Ring, Polygon>, Shape>) {
-      model_->others.push_back({static_cast<std::uint32_t>(nodes_.size()), shape, supports_[id]});
+      model_->others.push_back({static_cast<std::uint32_t>(model_->nodes.size()), shape, supports_[id]});
     }
   }
 
   // All have their places: what stands there depends on nothing else.
   void write_primitives() {
-    resize_large(model_->cones, nodes_.size());
-    resize_large(model_->kinds, nodes_.size());
-    resize_large(boxes_, nodes_.size());
-    tbb::parallel_for(std::size_t{0}, nodes_.size(), [&](std::size_t i) {
-      const NodeId id = nodes_[i];
+    resize_large(model_->cones, model_->nodes.size());
+    resize_large(model_->kinds, model_->nodes.size());
+    resize_large(boxes_, model_->nodes.size());
+    tbb::parallel_for(std::size_t{0}, model_->nodes.size(), [&](std::size_t i) {
+      const NodeId id = model_->nodes[i];
       const Node& node = tree_.nodes[id];
       if (const Cone* cone = std::get_if<Cone>(&node.what)) {
         model_->cones[i] = record_of(*cone, model_->units.scale);
@@ -307,6 +307,7 @@ class ModelCompiler {
                       [&](std::size_t i) { ancestors[i] = common_ancestor(model.sums[i], model.sums[i + 1]); });
     model.ancestors.build(std::move(ancestors), model.operators);
     model.sums.shrink_to_fit();
+    model.nodes.shrink_to_fit();
     model.operators.shrink_to_fit();
     model.warps.shrink_to_fit();
     model.takes_away = std::any_of(model.operators.begin(), model.operators.end(), [](const FieldOperator& node) {
@@ -325,7 +326,6 @@ class ModelCompiler {
   std::vector<Task> pending_;
   std::vector<NodeId> waiting_;          // primitives of the sums whose other operands find their places
   std::vector<NodeId> nested_, others_;  // room for `visit_sum`
-  std::vector<NodeId> nodes_;            // by primitive
   std::vector<Box> boxes_;               // by primitive
   std::shared_ptr<FieldModel> model_;
 };

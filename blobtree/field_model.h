@@ -54,6 +54,7 @@ struct FieldModel {
   std::vector<ConeRecord> cones;
   std::vector<ConeKind> kinds;
   std::vector<std::uint32_t> sums;  ///< the operator that each stands in
+  std::vector<NodeId> nodes;        ///< what each is in the tree
   BoxHierarchy supports;
   AncestorTable ancestors;
 

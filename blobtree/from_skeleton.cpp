@@ -102,13 +102,16 @@ class TreeBuilder {
     const std::size_t most = most_nodes();
     reserve_large(tree_.nodes, most);
     resize_large(next_, most);
+    resize_large(primitives_, internodes_.size());
   }
 
-  BlobTree run() {
+  PlantTree run() {
     // Children before parents: the summands of a subtree move up the axis and become a node where branches touch.
     for (std::size_t i = internodes_.size(); i-- > 0;) {
       Summands subtree = join(children_of(i));
-      append(subtree, single(add_primitive(tree_, internodes_[i], neighbourhood_of(i), options_)));
+      const NodeId internode = add_primitive(tree_, internodes_[i], neighbourhood_of(i), options_);
+      primitives_[i] = tree_.nodes[internode].children.empty() ? internode : tree_.nodes[internode].children[0];
+      append(subtree, single(internode));
       subtrees_[i] = subtree;
     }
     // Roots that start at one point are children of the ground there.
@@ -123,7 +126,7 @@ class TreeBuilder {
       tree_.add(Union{}, std::move(apart));
     else if (apart.size() == 1)
       tree_.root = apart.front();
-    return std::move(tree_);
+    return {std::move(tree_), std::move(primitives_)};
   }
 
  private:
@@ -205,19 +208,24 @@ class TreeBuilder {
   const TreeOptions& options_;
   const ChildTable table_;
   BlobTree tree_;
+  std::vector<NodeId> primitives_;  // by internode
   std::vector<NodeId> next_;        // by node: what it is followed by among summands
   std::vector<Summands> subtrees_;  // by internode
 };
 
 }  // namespace
 
-BlobTree tree_from_skeleton(const Skeleton& skeleton, const TreeOptions& options) {
+PlantTree plant_from_skeleton(const Skeleton& skeleton, const TreeOptions& options) {
   check(options.contact);
   if (!(0 <= options.bend_angle_degrees && options.bend_angle_degrees < 180)) {
     throw InputError(
         fmt::format("bend angle {} is outside its range: 0 <= angle_degrees < 180", options.bend_angle_degrees));
   }
   return TreeBuilder(skeleton, options).run();
+}
+
+BlobTree tree_from_skeleton(const Skeleton& skeleton, const TreeOptions& options) {
+  return plant_from_skeleton(skeleton, options).tree;
 }
 
 }  // namespace barkridge

@@ -31,4 +31,11 @@ struct TreeOptions {
 /// depth. Throws `InputError` for contact shapes or bend angles outside their ranges.
 BlobTree tree_from_skeleton(const Skeleton& skeleton, const TreeOptions& options = {});
 
+/// The tree, and which of its nodes is each internode's primitive.
+struct PlantTree {
+  BlobTree tree;
+  std::vector<NodeId> primitives;  ///< by internode
+};
+PlantTree plant_from_skeleton(const Skeleton& skeleton, const TreeOptions& options = {});
+
 }  // namespace barkridge

@@ -62,7 +62,7 @@ void run(const RenderArguments& arguments) {
     prepare_image_writing(arguments.outputs);
     return !shown || shown(fraction);
   };
-  const Image image = render(*field, make_render_scene(scene, *field), options);
+  const Image image = render(*field, make_render_scene(scene, model, *field), options);
   for (const std::string& output : arguments.outputs) write_picture(image, scene, model, output);
 }
 

@@ -24,6 +24,11 @@ Ray CameraRays::through(double x, double y) const {
   return {position_ + offset, view_};
 }
 
+Footprint CameraRays::footprint() const {
+  const double pixel = 2 * glm::length(right_) / height_;
+  return perspective_ ? Footprint{0, pixel} : Footprint{pixel, 0};
+}
+
 std::optional<glm::dvec2> CameraRays::place_of(const Vec3& point) const {
   const Vec3 offset = point - position_;
   const double depth = glm::dot(offset, view_);

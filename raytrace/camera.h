@@ -9,6 +9,14 @@
 
 namespace barkridge {
 
+/// How wide a pixel is on a surface across a ray, at a distance.
+struct Footprint {
+  double width = 0;   ///< where the ray starts
+  double spread = 0;  ///< what it grows by a length
+
+  double at(double t) const { return width + spread * t; }
+};
+
 /// A checked camera in front of a picture of some size in pixels.
 class CameraRays {
  public:
@@ -17,6 +25,9 @@ class CameraRays {
   /// The ray through a place in the picture, in pixels to the right of and below its top left corner. Perspective
   /// rays start at the camera's position, orthographic ones on the plane through it across the view.
   Ray through(double x, double y) const;
+
+  /// Of the rays through pixels.
+  Footprint footprint() const;
 
   /// Where in the picture a point is seen; nothing for points that are not before the camera.
   std::optional<glm::dvec2> place_of(const Vec3& point) const;

@@ -11,17 +11,22 @@ namespace {
 constexpr double kHazeRadius = 15;
 // How much of the sky a point that sees the first surface can be expected to see itself, if it is on the solid.
 constexpr double kSecondSkyShare = 0.5;
+// What a scattered ray stands for widens by this much a length.
+constexpr double kScatteredSpread = 0.25;
+
+// Without its lobe, as seen by scattered rays: highlights of highlights are only specks.
+Scattering dull(const Scattering& scattering) { return Scattering(Material{scattering.albedo(), 0, 1}); }
 
 }  // namespace
 
-PathTracer::PathTracer(const Tracer& tracer, const RenderScene& scene, int bounces)
+PathTracer::PathTracer(const Tracer& tracer, const RenderScene& scene, const Footprint& footprint, int bounces)
     : tracer_(tracer),
       scene_(scene),
+      footprint_(footprint),
       bounces_(bounces),
       sun_(scene.sun),
       sky_average_(sky_average(scene.sky)),
       bark_(scene.material),
-      dull_bark_(Material{scene.material.color, 0, 1}),
       ground_(Material{scene.ground.color, 0, 1}) {
   const Box& box = tracer.scene_box();
   const Vec3 to_target = scene.camera.target - scene.camera.position;
@@ -29,7 +34,20 @@ PathTracer::PathTracer(const Tracer& tracer, const RenderScene& scene, int bounc
   haze_radius_ = kHazeRadius * (box.empty() ? glm::length(to_target) : box.diagonal());
 }
 
-std::optional<PathTracer::Surface> PathTracer::find_surface(const Ray& ray, const Scattering& bark,
+PathTracer::Surface PathTracer::on_solid(const Ray& ray, const Hit& hit, const Footprint& footprint) const {
+  Surface surface{hit.outside_point(), hit.normal, bark_, hit.t};
+  if (scene_.shader) {
+    const ShadedPoint shaded = scene_.shader->shade(hit.point, hit.normal, footprint.at(hit.t));
+    surface.normal = shaded.normal;
+    surface.scattering = Scattering(shaded.material);
+  }
+  // Rounding and bumps may turn a grazed normal away from the ray; bend it back.
+  const double facing = -glm::dot(surface.normal, ray.direction);
+  if (facing < 1e-4) surface.normal = glm::normalize(surface.normal - (1e-4 - facing) * ray.direction);
+  return surface;
+}
+
+std::optional<PathTracer::Surface> PathTracer::find_surface(const Ray& ray, const Footprint& footprint,
                                                             bool meets_solid) const {
   double t_ground = std::numeric_limits<double>::infinity();
   if (scene_.ground.enabled && ray.direction.y != 0) {
@@ -37,17 +55,14 @@ std::optional<PathTracer::Surface> PathTracer::find_surface(const Ray& ray, cons
     if (t > 0) t_ground = t;
   }
   if (const std::optional<Hit> hit = meets_solid ? tracer_.first_hit(ray, 0, t_ground) : std::nullopt) {
-    // Rounding may turn a grazed normal away from the ray; bend it back.
-    Vec3 normal = hit->normal;
-    const double facing = -glm::dot(normal, ray.direction);
-    if (facing < 1e-4) normal = glm::normalize(normal - (1e-4 - facing) * ray.direction);
-    return Surface{hit->outside_point(), normal, &bark};
+    return on_solid(ray, *hit, footprint);
   }
   if (!std::isfinite(t_ground)) return std::nullopt;
   Vec3 point = ray.at(t_ground);
   point.y = scene_.ground.height;
   const double distance = std::hypot(point.x - center_.x, point.z - center_.z) / haze_radius_;
-  return Surface{point, {0, ray.direction.y < 0 ? 1 : -1, 0}, &ground_, true, 1 - std::exp(-distance * distance)};
+  return Surface{point, {0, ray.direction.y < 0 ? 1 : -1, 0}, ground_, t_ground,
+                 true,  1 - std::exp(-distance * distance)};
 }
 
 // Whether the sun is seen, past the solid and the ground.
@@ -59,23 +74,25 @@ bool PathTracer::lit_from(const Vec3& start, const Vec3& direction) const {
 
 Color PathTracer::from_sun(const Surface& surface, const Vec3& view, const glm::dvec2& u) const {
   const Vec3 light = sun_.direction(u);
-  const Color scattered = surface.scattering->evaluate(surface.normal, view, light) * sun_.irradiance();
+  const Color scattered = surface.scattering.evaluate(surface.normal, view, light) * sun_.irradiance();
   if (scattered == Color(0) || !lit_from(surface.start, light)) return Color(0);
   return scattered;
 }
 
 Color PathTracer::from_surroundings(const Surface& surface, const Vec3& view, const PixelSampler& sampler,
                                     int sample) const {
-  if (bounces_ == 0) return sky_average_ * surface.scattering->albedo();
-  const double choice = surface.scattering->has_lobe() ? sampler.pair(sample, Dimension::kLobe).x : 0;
+  if (bounces_ == 0) return sky_average_ * surface.scattering.albedo();
+  const double choice = surface.scattering.has_lobe() ? sampler.pair(sample, Dimension::kLobe).x : 0;
   const std::optional<ScatteredDirection> scattered =
-      surface.scattering->sample(surface.normal, view, sampler.pair(sample, Dimension::kBounce), choice);
+      surface.scattering.sample(surface.normal, view, sampler.pair(sample, Dimension::kBounce), choice);
   if (!scattered) return Color(0);
   const Color background = sky_radiance(scene_.sky, scattered->direction);
-  const std::optional<Surface> second = find_surface({surface.start, scattered->direction}, dull_bark_, true);
+  const Footprint wide{footprint_.at(surface.t), kScatteredSpread};
+  std::optional<Surface> second = find_surface({surface.start, scattered->direction}, wide, true);
   if (!second) return scattered->weight * background;
+  second->scattering = dull(second->scattering);
 
-  const Color sky = (second->is_ground ? 1 : kSecondSkyShare) * sky_average_ * second->scattering->albedo();
+  const Color sky = (second->is_ground ? 1 : kSecondSkyShare) * sky_average_ * second->scattering.albedo();
   const Color sun = from_sun(*second, -scattered->direction, sampler.pair(sample, Dimension::kBounceSun));
   return scattered->weight * glm::mix(sky + sun, background, second->haze);
 }
@@ -87,7 +104,7 @@ std::optional<Radiance> PathTracer::plain_background() const {
 
 Radiance PathTracer::along(const Ray& ray, const PixelSampler& sampler, int sample, bool meets_solid) const {
   const Radiance background{sky_radiance(scene_.sky, ray.direction), scene_.sky.intensity > 0 ? 1.0 : 0.0};
-  const std::optional<Surface> surface = find_surface(ray, bark_, meets_solid);
+  const std::optional<Surface> surface = find_surface(ray, footprint_, meets_solid);
   if (!surface) return background;
   const Vec3 view = -ray.direction;
   const Color color = from_sun(*surface, view, sampler.pair(sample, Dimension::kSun)) +

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "raytrace/camera.h"
 #include "raytrace/light.h"
 #include "raytrace/render.h"
 #include "raytrace/sampler.h"
@@ -21,7 +22,8 @@ struct Radiance {
 /// and for the surfaces around, which are themselves lit by the sun with shadows and by the sky's average.
 class PathTracer {
  public:
-  PathTracer(const Tracer& tracer, const RenderScene& scene, int bounces);
+  /// `footprint` is that of the rays that `along` is asked about.
+  PathTracer(const Tracer& tracer, const RenderScene& scene, const Footprint& footprint, int bounces);
 
   /// One sample of what arrives at the ray's origin from its direction. `meets_solid` is false only where it is known
   /// that the ray itself meets nothing of the solid.
@@ -34,23 +36,25 @@ class PathTracer {
   struct Surface {
     Vec3 start;   // where secondary rays leave
     Vec3 normal;  // on the viewer's side
-    const Scattering* scattering;
+    Scattering scattering;
+    double t;  // along the ray
     bool is_ground = false;
     double haze = 0;  // share of the background in front of it
   };
 
-  std::optional<Surface> find_surface(const Ray& ray, const Scattering& bark, bool meets_solid) const;
+  std::optional<Surface> find_surface(const Ray& ray, const Footprint& footprint, bool meets_solid) const;
+  Surface on_solid(const Ray& ray, const Hit& hit, const Footprint& footprint) const;
   Color from_sun(const Surface& surface, const Vec3& view, const glm::dvec2& u) const;
   Color from_surroundings(const Surface& surface, const Vec3& view, const PixelSampler& sampler, int sample) const;
   bool lit_from(const Vec3& start, const Vec3& direction) const;
 
   const Tracer& tracer_;
   const RenderScene& scene_;
+  Footprint footprint_;
   int bounces_;
   SunDisc sun_;
   Color sky_average_;
   Scattering bark_;
-  Scattering dull_bark_;  // without its lobe, as seen by scattered rays: highlights of highlights are only specks
   Scattering ground_;
   Vec3 center_;
   double haze_radius_;

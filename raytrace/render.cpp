@@ -60,7 +60,7 @@ class TileRenderer {
   TileRenderer(const Tracer& tracer, const RenderScene& scene, const RenderOptions& options, const PixelRegion& region)
       : options_(options),
         camera_(scene.camera, options.width, options.height),
-        path_(tracer, scene, options.bounces),
+        path_(tracer, scene, camera_.footprint(), options.bounces),
         layout_(options.seed, options.width, options.height, options.samples_per_pixel),
         seen_(tracer, camera_, with_neighbours(region)),
         plain_background_(path_.plain_background()) {}

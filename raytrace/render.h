@@ -2,16 +2,15 @@
 // The renderer's door: what to look at, from where, in which light; and the picture that comes out.
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "base/progress.h"
 #include "blobtree/field.h"
 #include "mesh/mesh.h"
+#include "raytrace/surface_shader.h"
 
 namespace barkridge {
-
-/// Linear Rec. 709 colour, no unit.
-using Color = glm::dvec3;
 
 struct Camera {
   enum class Projection { kPerspective, kOrthographic };
@@ -50,19 +49,14 @@ struct Ground {
   Color color{0.25, 0.235, 0.175};
 };
 
-/// Lambert plus a rough specular lobe (GGX).
-struct Material {
-  Color color{0.38, 0.31, 0.235};
-  double specular = 0.04;  ///< reflectance at normal incidence, 0 for none
-  double roughness = 0.6;  ///< in (0, 1]
-};
-
 struct RenderScene {
   Camera camera;
   Sun sun;
   Sky sky;
   Ground ground;
   Material material;
+  /// Tells the solid's material instead, where there is one.
+  std::shared_ptr<const SurfaceShader> shader = {};
 };
 
 /// A rectangle of pixels: x to the right, y down from the top.

@@ -78,10 +78,8 @@ Model make_model(const Scene& scene, const Listener& listener) {
 }
 
 Model make_model(const Scene& scene, Skeleton skeleton) {
-  Model model;
-  model.tree = tree_from_skeleton(skeleton, scene.tree);
-  model.skeleton = std::move(skeleton);
-  return model;
+  PlantTree plant = plant_from_skeleton(skeleton, scene.tree);
+  return {std::move(skeleton), std::move(plant.tree), std::move(plant.primitives)};
 }
 
 double thinnest_radius(const Model& model) {
@@ -102,7 +100,7 @@ double cell_size(const Scene& scene, const Model& model) {
   return kCellsPerThinnestRadius * thinnest;
 }
 
-RenderScene make_render_scene(const Scene& scene, const Field& field) {
+RenderScene make_render_scene(const Scene& scene, const Model& model, const Field& field) {
   const double aspect = static_cast<double>(scene.image.width) / scene.image.height;
   RenderScene look;
   look.camera = fit_camera(scene.camera, field, aspect);
@@ -114,6 +112,7 @@ RenderScene make_render_scene(const Scene& scene, const Field& field) {
   look.sky = scene.sky;
   look.ground = scene.ground;
   look.material = scene.material;
+  look.shader = make_bark_shader(model.tree, model.skeleton, model.primitives, scene.material, scene.bark);
   return look;
 }
 

@@ -55,6 +55,7 @@ Skeleton make_skeleton(const Scene& scene, const Listener& listener = {});
 struct Model {
   Skeleton skeleton;
   BlobTree tree;
+  std::vector<NodeId> primitives = {};  ///< the nodes of the skeleton's internodes
 };
 Model make_model(const Scene& scene, const Listener& listener = {});
 Model make_model(const Scene& scene, Skeleton skeleton);
@@ -66,8 +67,9 @@ double thinnest_radius(const Model& model);
 /// The scene's cell size, or half the thinnest radius. Throws `InputError` for an empty model without one.
 double cell_size(const Scene& scene, const Model& model);
 
-/// The look of the scene, with everything filled in that it leaves to the program, for the solid of `field`.
-RenderScene make_render_scene(const Scene& scene, const Field& field);
+/// The look of the scene, with everything filled in that it leaves to the program, for the solid of `field`, which is
+/// the model's.
+RenderScene make_render_scene(const Scene& scene, const Model& model, const Field& field);
 
 /// The file's header names the version, the scene's hash and all that determines the pixels.
 void write_picture(const Image& image, const Scene& scene, const Model& model, const std::string& path);

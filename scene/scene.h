@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "bark/bark_shader.h"
 #include "blobtree/from_skeleton.h"
 #include "lsystem/derive.h"
 #include "lsystem/turtle.h"
@@ -67,6 +68,7 @@ struct Scene {
   Sky sky;
   Ground ground;
   Material material;
+  BarkOptions bark;
   RenderOptions image;
   /// Edge length of a mesh's sampling cells; without it `default_cell_size`.
   std::optional<double> cell_size;

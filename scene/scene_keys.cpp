@@ -392,6 +392,40 @@ void add_surroundings_keys(Keys& keys) {
       "Roughness of the gloss."));
 }
 
+void add_bark_keys(Keys& keys) {
+  keys.push_back(choice<BarkKind>(
+      "bark.kind", {{BarkKind::kPlain, "plain"}, {BarkKind::kEven, "even"}, {BarkKind::kPoplar, "poplar"}},
+      [](auto& s) -> auto& { return s.bark.kind; },
+      "One material everywhere; or the same with dark ridges and wood on cuts; or a poplar's bark."));
+  keys.push_back(number(
+      "bark.scale", above(0), [](auto& s) -> auto& { return s.bark.scale; },
+      "Width of a furrowed ridge of bark. Left out, a fifth of the thickest branch's radius."));
+  keys.push_back(number(
+      "bark.furrowed_radius", above(0), [](auto& s) -> auto& { return s.bark.furrowed_radius; },
+      "Radius of branches that are half smooth, half furrowed. Left out, half the thickest branch's."));
+  keys.push_back(number(
+      "bark.bump", at_least(0), [](auto& s) -> auto& { return s.bark.bump; },
+      "Factor of the height by which the pattern turns the surface's normals."));
+  keys.push_back(color(
+      "bark.smooth_color", from_to(0, 1), [](auto& s) -> auto& { return s.bark.smooth_color; },
+      "Colour of smooth bark, linear Rec. 709."));
+  keys.push_back(color(
+      "bark.furrowed_color", from_to(0, 1), [](auto& s) -> auto& { return s.bark.furrowed_color; },
+      "Colour of furrowed bark's ridges."));
+  keys.push_back(color(
+      "bark.ridge_color", from_to(0, 1), [](auto& s) -> auto& { return s.bark.ridge_color; },
+      "Colour of bark ridges, where branches touch."));
+  keys.push_back(number(
+      "bark.ridge", from_to(0, 1), [](auto& s) -> auto& { return s.bark.ridge; },
+      "How much of that colour they have."));
+  keys.push_back(color(
+      "wood.color", from_to(0, 1), [](auto& s) -> auto& { return s.bark.wood_color; },
+      "Colour of wood, which cuts lay open."));
+  keys.push_back(number(
+      "wood.ring_width", above(0), [](auto& s) -> auto& { return s.bark.ring_width; },
+      "Width of a growth ring. Left out, a fortieth of the thickest branch's radius."));
+}
+
 void add_image_keys(Keys& keys) {
   keys.push_back(integer(
       "image.width", 1, 65536, [](auto& s) -> auto& { return s.image.width; }, "Pixels across."));
@@ -417,6 +451,7 @@ Keys make_keys() {
   add_camera_keys(keys);
   add_light_keys(keys);
   add_surroundings_keys(keys);
+  add_bark_keys(keys);
   add_image_keys(keys);
   return keys;
 }

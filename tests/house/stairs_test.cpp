@@ -21,9 +21,10 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
     {"subdivision", {"base", "mesh", "lsystem/skeleton.h"}},
     {"polygonize", {"base", "mesh", "blobtree/field.h"}},
     {"raytrace", {"base", "mesh", "blobtree/field.h"}},
-    {"scene", {"base", "mesh", "lsystem", "blobtree", "subdivision", "polygonize", "raytrace"}},
-    {"study", {"base", "mesh", "lsystem", "blobtree", "subdivision", "polygonize", "raytrace", "scene"}},
-    {"cli", {"base", "mesh", "lsystem", "blobtree", "subdivision", "polygonize", "raytrace", "scene", "study"}},
+    {"bark", {"base", "blobtree", "lsystem/skeleton.h", "raytrace/surface_shader.h"}},
+    {"scene", {"base", "mesh", "lsystem", "blobtree", "subdivision", "polygonize", "raytrace", "bark"}},
+    {"study", {"base", "mesh", "lsystem", "blobtree", "subdivision", "polygonize", "raytrace", "bark", "scene"}},
+    {"cli", {"base", "mesh", "lsystem", "blobtree", "subdivision", "polygonize", "raytrace", "bark", "scene", "study"}},
 };
 
 // The header that a line includes in quotes, or nothing.

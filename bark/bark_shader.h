@@ -1,0 +1,46 @@
+#pragma once
+// The look of a plant's surface: what its primitives show, mixed by their shares.
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "bark/branch_coordinates.h"
+#include "bark/poplar_bark.h"
+#include "bark/wood.h"
+#include "blobtree/surface_probe.h"
+#include "raytrace/surface_shader.h"
+
+namespace barkridge {
+
+enum class BarkKind {
+  kPlain,   ///< one material everywhere, also on ridges and cuts: no shader
+  kEven,    ///< one colour, but for ridges and cuts
+  kPoplar,  ///< [bark/poplar_bark.h]
+};
+
+struct BarkOptions {
+  BarkKind kind = BarkKind::kPlain;
+  /// Width of the pattern's features; without it a fifth of the thickest branch's radius.
+  std::optional<double> scale;
+  /// Radius where bark is half furrowed; without it half the thickest branch's.
+  std::optional<double> furrowed_radius;
+  double bump = 1;  ///< factor of the pattern's height, >= 0
+  Color smooth_color = PoplarBark{}.smooth_color;
+  Color furrowed_color = PoplarBark{}.furrowed_color;
+  Color ridge_color{0.07, 0.06, 0.05};
+  double ridge = 0.7;  ///< how much of that colour ridges have, 0 to 1
+  Color wood_color = Wood{}.color;
+  /// Without it a fortieth of the thickest branch's radius.
+  std::optional<double> ring_width;
+};
+
+/// A shader of the tree's surface; null for plain bark. `material` gives the gloss, and the colour of even bark.
+/// `primitives` are the nodes of the skeleton's internodes, both empty for a tree written by hand. Bumps turn the
+/// normal as if the surface stood out by the mix of its patterns' heights, with the shares held still. Keeps no
+/// reference. Cost: as `compile`; of an answer some microseconds.
+std::shared_ptr<const SurfaceShader> make_bark_shader(const BlobTree& tree, const Skeleton& skeleton,
+                                                      std::span<const NodeId> primitives, const Material& material,
+                                                      const BarkOptions& options);
+
+}  // namespace barkridge
