@@ -18,6 +18,7 @@
 #include "base/error.h"
 #include "base/geometry.h"
 #include "base/output_file.h"
+#include "mesh/povray.h"
 
 namespace barkridge {
 
@@ -202,8 +203,10 @@ MeshFormat mesh_format(const std::string& path) {
   if (extension == ".obj") return MeshFormat::obj;
   if (extension == ".ply") return MeshFormat::ply;
   if (extension == ".stl") return MeshFormat::stl;
+  if (extension == ".inc") return MeshFormat::inc;
+  if (extension == ".pov") return MeshFormat::pov;
   throw InputError(
-      fmt::format("{}: {}; meshes are written as .obj, .ply or .stl", path,
+      fmt::format("{}: {}; meshes are written as .obj, .ply, .stl, .inc or .pov", path,
                   extension.empty() ? "the file name has no extension" : "unknown mesh format " + extension));
 }
 
@@ -221,6 +224,12 @@ void write_mesh(const Mesh& mesh, const std::string& path, const MeshWriteOption
       break;
     case MeshFormat::stl:
       write_stl(mesh, file);
+      break;
+    case MeshFormat::inc:
+    case MeshFormat::pov:
+      file.write(comment_lines(options.comment, "// "));
+      write_povray_mesh(mesh, file);
+      if (format == MeshFormat::pov) write_povray_scene(mesh, file);
       break;
   }
   file.commit();

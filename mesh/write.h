@@ -18,6 +18,11 @@ enum class MeshFormat {
   ply,
   /// STL, binary: loose triangles, each with its own normal, and nothing else.
   stl,
+  /// POV-Ray include: declares `Barkridge_Mesh`, a mesh2 with normals and texture coordinates (mesh/povray.h); colours
+  /// and attributes are left out.
+  inc,
+  /// POV-Ray scene: the same, and a camera that sees all of it, lights and a plain surface.
+  pov,
 };
 
 struct MeshWriteOptions {
@@ -26,8 +31,8 @@ struct MeshWriteOptions {
   std::string comment;
 };
 
-/// The format that a path's extension (.obj, .ply, .stl, in any case) stands for. Throws `InputError` for all others:
-/// to be asked before the long work of making the mesh.
+/// The format that a path's extension (.obj, .ply, .stl, .inc, .pov, in any case) stands for. Throws `InputError` for
+/// all others: to be asked before the long work of making the mesh.
 MeshFormat mesh_format(const std::string& path);
 
 /// Writes the mesh in the format that the extension says, whole or not at all; the bytes depend on mesh and options

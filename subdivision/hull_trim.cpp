@@ -1,0 +1,58 @@
+#include "subdivision/hull_trim.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace barkridge {
+
+namespace {
+
+// The part of a share of an angle that a cone leaves free, of the smaller share.
+constexpr double kMargin = 0.2;
+// No cone needs more: less than this minus its margin is the widest.
+constexpr double kWidestShare = 1.05 * kWidestHullCone;
+
+// Exact also for angles near 0 and pi.
+double angle_between(const Vec3& a, const Vec3& b) { return 2 * std::atan2(glm::length(a - b), glm::length(a + b)); }
+
+// The share of their angle without which a branch's ring does not fit into its room.
+double least_share(const HullBranch& branch) {
+  return std::min(std::atan2(branch.radius, branch.room) / (1 - kMargin), kWidestShare);
+}
+
+// The first branch's share of the angle `theta` to the second.
+double share(const HullBranch& a, const HullBranch& b, double theta) {
+  if (theta >= 2 * kWidestShare) return theta / 2;  // both have all that they can use
+  double wanted = std::atan2(a.radius * std::sin(theta), b.radius + a.radius * std::cos(theta));
+  const double least = least_share(a), most = theta - least_share(b);
+  if (least <= most) wanted = std::clamp(wanted, least, most);  // otherwise one of them will have to go
+  return std::clamp(wanted, std::max(theta - kWidestShare, 0.0), std::min(theta, kWidestShare));
+}
+
+}  // namespace
+
+std::vector<HullCone> hull_cones(std::span<const HullBranch> branches) {
+  std::vector<HullCone> cones(branches.size(), {kWidestHullCone, std::numeric_limits<double>::infinity()});
+  const auto for_pairs = [&](auto work) {
+    for (std::size_t i = 0; i < branches.size(); ++i) {
+      for (std::size_t j = i + 1; j < branches.size(); ++j) {
+        work(i, j, angle_between(branches[i].direction, branches[j].direction));
+      }
+    }
+  };
+  for_pairs([&](std::size_t i, std::size_t j, double theta) {
+    const double first = share(branches[i], branches[j], theta);
+    const double second = theta - first;
+    const double margin = kMargin * std::min(first, second);
+    cones[i].angle = std::min(cones[i].angle, first - margin);
+    cones[j].angle = std::min(cones[j].angle, second - margin);
+  });
+  for_pairs([&](std::size_t i, std::size_t j, double theta) {
+    const double gap = theta - cones[i].angle - cones[j].angle;
+    cones[i].gap = std::min(cones[i].gap, gap);
+    cones[j].gap = std::min(cones[j].gap, gap);
+  });
+  return cones;
+}
+
+}  // namespace barkridge
