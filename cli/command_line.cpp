@@ -57,7 +57,8 @@ std::string footer(const std::string& text) { return wrapped(text + '\n' + kExit
 
 // The options of a verb as the user wrote them, before they mean anything.
 struct Written {
-  std::string scene, size, region, points, steps, seed, samples, cell_size, max_modules, max_memory;
+  std::string scene, size, region, points, steps, seed, samples, cell_size, surface, level, statistics, max_modules,
+      max_memory;
   std::vector<std::string> definitions, outputs;
   int threads = 0;
   bool quiet = false, json = false;
@@ -85,11 +86,19 @@ CLI::App& add_verb(CLI::App& app, Written& written, const char* name, const char
   return verb;
 }
 
-void add_output_options(CLI::App& verb, Written& written, const char* output_text) {
-  add(verb, "-o,--output", written.outputs, "FILE", output_text)->required()->allow_extra_args(false);
+void add_output_options(CLI::App& verb, Written& written, const char* output_text, bool required = true) {
+  add(verb, "-o,--output", written.outputs, "FILE", output_text)->required(required)->allow_extra_args(false);
   add(verb, "-t,--threads", written.threads, "N",
       "Threads to use; 0, the default, means all. The result is the same for any number")
       ->check(CLI::Range(0, 1024).description(""));
+}
+
+void add_surface_options(CLI::App& verb, Written& written) {
+  add(verb, "--surface", written.surface, "METHOD",
+      "implicit, templates, hull or cylinders: by the model's field, or by Loop subdivision of a control mesh "
+      "(surface.method)");
+  add(verb, "--level", written.level, "N",
+      "Times that each triangle of a control mesh is split in four (surface.level)");
 }
 
 void add_verbs(CLI::App& app, Written& written) {
@@ -98,17 +107,22 @@ void add_verbs(CLI::App& app, Written& written) {
   add_output_options(render, written,
                      "The picture; its extension, .exr or .png, says the format. It appears whole or not at all. "
                      "May be given more than once");
+  add_surface_options(render, written);
   add(render, "--size", written.size, "WxH", "Size in pixels (image.width, image.height)");
   add(render, "--spp,--samples", written.samples, "N", "Most samples a pixel (image.samples_per_pixel)");
   add(render, "--seed", written.seed, "N", "Seed of the picture's random numbers (image.seed)");
   add(render, "--region", written.region, "WxH+X+Y",
       "Renders this part only, X to the right and Y down from the top left; its pixels are those of the whole picture");
 
-  CLI::App& mesh = add_verb(app, written, "mesh", "Makes a closed, manifold triangle mesh of the surface.",
+  CLI::App& mesh = add_verb(app, written, "mesh", "Makes a triangle mesh of the surface, closed and manifold.",
                             "Example: barkridge mesh poplar.toml -o poplar.ply --cell-size 0.01");
   add_output_options(mesh, written,
                      "The mesh; its extension, .ply, .obj or .stl, says the format. It appears whole or not at all. "
-                     "May be given more than once");
+                     "May be given more than once",
+                     false);
+  add_surface_options(mesh, written);
+  add(mesh, "--statistics", written.statistics, "FILE",
+      "Writes what the mesh took, as JSON: seconds of each stage, triangles, peak of memory. Then -o may be left out");
   add(mesh, "--cell-size", written.cell_size, "H",
       "Edge length of the sampling cells in scene units (mesh.cell_size); by default half the thinnest branch's "
       "radius");
@@ -155,9 +169,15 @@ void interpret_scene_options(const Written& written, SceneArguments& arguments) 
   }
 }
 
+void add_surface_overrides(SceneArguments& arguments, const Written& written) {
+  add_override(arguments, "--surface", "surface.method", written.surface);
+  add_override(arguments, "--level", "surface.level", written.level);
+}
+
 Verb interpret_render(const Written& written) {
   RenderArguments arguments;
   interpret_scene_options(written, arguments);
+  add_surface_overrides(arguments, written);
   arguments.outputs = written.outputs;
   if (!written.size.empty()) {
     const std::string origin = "--size " + written.size;
@@ -185,6 +205,9 @@ Verb interpret_verb(const std::string& name, const Written& written) {
     MeshArguments arguments;
     interpret_scene_options(written, arguments);
     arguments.outputs = written.outputs;
+    arguments.statistics = written.statistics;
+    if (arguments.outputs.empty() && arguments.statistics.empty()) refuse("mesh", "-o FILE, or --statistics FILE");
+    add_surface_overrides(arguments, written);
     add_override(arguments, "--cell-size", "mesh.cell_size", written.cell_size);
     return arguments;
   }

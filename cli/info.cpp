@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -10,6 +9,7 @@
 #include "cli/results.h"
 #include "cli/verbs.h"
 #include "cli/warning.h"
+#include "cli/work_statistics.h"
 #include "scene/model_statistics.h"
 #include "scene/pipeline.h"
 #include "scene/scene_hash.h"
@@ -32,12 +32,6 @@ std::size_t resident_bytes() {
   std::size_t total_pages = 0, resident_pages = 0;
   std::ifstream("/proc/self/statm") >> total_pages >> resident_pages;
   return resident_pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-}
-
-std::size_t peak_resident_bytes() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
 }
 
 Info collect(const InfoArguments& arguments) {

@@ -1,12 +1,12 @@
-#include "mesh/write.h"
-
 #include "cli/machine_memory.h"
 #include "cli/output_check.h"
 #include "cli/progress_bar.h"
 #include "cli/verbs.h"
 #include "cli/warning.h"
-#include "polygonize/polygonize.h"
+#include "cli/work_statistics.h"
+#include "mesh/write.h"
 #include "scene/pipeline.h"
+#include "scene/surface.h"
 
 namespace barkridge::cli {
 
@@ -15,21 +15,54 @@ namespace {
 // While a mesh is made and written.
 constexpr std::size_t kBytesPerTriangle = 128;
 
+struct Made {
+  Model model;
+  Mesh mesh;
+};
+
+Made make(const Scene& scene, ProgressBar& bar, StageClock clock, WorkStatistics& statistics) {
+  const std::size_t limit = scene.max_triangles.value_or(machine_memory() / kBytesPerTriangle);
+  const Listener growing{bar.stage("growing"), warn};
+  Made made;
+  if (is_subdivided(scene)) {
+    made.model.skeleton = make_skeleton(scene, growing);
+    statistics.skeleton_seconds = clock.lap();
+    const ControlMesh control = make_control_mesh(scene, made.model.skeleton);
+    statistics.control_triangles = control.triangles.size();
+    statistics.build_seconds = clock.lap();
+    made.mesh = refine(scene, control, limit);
+  } else {
+    if (has_skeleton(scene)) {
+      Skeleton skeleton = make_skeleton(scene, growing);
+      statistics.skeleton_seconds = clock.lap();
+      made.model = make_model(scene, std::move(skeleton));
+    } else {
+      made.model = make_model(scene, growing);
+    }
+    const std::shared_ptr<const Field> field = compile(made.model.tree);
+    statistics.build_seconds = clock.lap();
+    made.mesh = implicit_mesh(scene, made.model, *field, limit, bar.stage("meshing"));
+  }
+  statistics.surface_seconds = clock.lap();
+  statistics.internodes = made.model.skeleton.internodes.size();
+  statistics.triangles = made.mesh.triangles.size();
+  return made;
+}
+
 }  // namespace
 
 void run(const MeshArguments& arguments) {
+  const StageClock clock;
   for (const std::string& output : arguments.outputs) mesh_format(output);
   const Scene scene = load_scene(arguments.path, arguments.overrides);
   for (const std::string& output : arguments.outputs) check_writable(output);
+  if (!arguments.statistics.empty()) check_writable(arguments.statistics);
 
   ProgressBar bar(arguments.quiet);
-  const Model model = make_model(scene, {bar.stage("growing"), warn});
-  PolygonizeOptions options;
-  options.cell_size = cell_size(scene, model);
-  options.max_triangles = scene.max_triangles.value_or(machine_memory() / kBytesPerTriangle);
-  options.progress = bar.stage("meshing");
-  const Mesh mesh = polygonize(*compile(model.tree), options);
-  for (const std::string& output : arguments.outputs) write_surface(mesh, scene, model, output);
+  WorkStatistics statistics;
+  const Made made = make(scene, bar, clock, statistics);
+  if (!arguments.statistics.empty()) statistics.write(arguments.statistics);
+  for (const std::string& output : arguments.outputs) write_surface(made.mesh, scene, made.model, output);
 }
 
 }  // namespace barkridge::cli

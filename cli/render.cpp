@@ -12,6 +12,7 @@
 #include "cli/warning.h"
 #include "raytrace/image_file.h"
 #include "scene/pipeline.h"
+#include "scene/surface.h"
 
 namespace barkridge::cli {
 
@@ -62,7 +63,10 @@ void run(const RenderArguments& arguments) {
     prepare_image_writing(arguments.outputs);
     return !shown || shown(fraction);
   };
-  const Image image = render(*field, make_render_scene(scene, model, *field), options);
+  const RenderScene look = make_render_scene(scene, model, *field);
+  const Image image = is_subdivided(scene)
+                          ? render(refine(scene, make_control_mesh(scene, model.skeleton), 0), look, options)
+                          : render(*field, look, options);
   for (const std::string& output : arguments.outputs) write_picture(image, scene, model, output);
 }
 

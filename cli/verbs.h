@@ -23,7 +23,8 @@ struct RenderArguments : SceneArguments {
   std::string region_origin;  ///< the region as the user wrote it
 };
 struct MeshArguments : SceneArguments {
-  std::vector<std::string> outputs;
+  std::vector<std::string> outputs;  ///< may be none if there is a file for statistics
+  std::string statistics;            ///< a file, or empty
 };
 struct GrowArguments : SceneArguments {};
 struct SkeletonArguments : SceneArguments {};

@@ -3,7 +3,7 @@
 //
 //     load_scene -> grow -> draw or make_skeleton -> make_tree or make_model -> compile (blobtree/tree.h)
 //         -> make_render_scene, render -> write_picture
-//         -> cell_size, polygonize     -> write_surface
+//         -> implicit_mesh, or make_control_mesh, refine (scene/surface.h) -> render or write_surface
 
 #include <cstddef>
 #include <memory>

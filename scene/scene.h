@@ -30,6 +30,21 @@ struct ModelSource {
   std::string file;  ///< where the text stands, for messages
 };
 
+/// How the model gets its surface.
+enum class SurfaceMethod {
+  kImplicit,   ///< the field of its BlobTree
+  kTemplates,  ///< Loop subdivision of a control mesh of junction templates, for planar joints
+  kHull,       ///< Loop subdivision of a control mesh of convex-hull joints, for all
+  kCylinders,  ///< Loop subdivision of separate generalized cylinders
+};
+struct SurfaceOptions {
+  SurfaceMethod method = SurfaceMethod::kImplicit;
+  /// Times that each triangle of a control mesh is split in four.
+  int level = 2;
+  /// Whether the refined vertices are moved to the limit surface.
+  bool limit = true;
+};
+
 /// A camera whose place may be left to the program: without a position it stands in the direction given by the angles,
 /// as far away as the whole model needs, and magnifies the picture by `zoom`; without a target it looks at the model's
 /// middle; without a height an orthographic picture is as high as the model needs.
@@ -63,6 +78,7 @@ struct Scene {
   std::map<std::string, std::string> defines;
   TurtleOptions turtle;
   TreeOptions tree;
+  SurfaceOptions surface;
   SceneCamera camera;
   SceneSun sun;
   Sky sky;

@@ -59,7 +59,8 @@ void add_skeleton(Sha256& hash, const Skeleton& skeleton) {
 }
 
 bool is_seen(std::string_view key) {
-  for (const std::string_view section : {"junction.", "bend.", "camera.", "sun.", "sky.", "ground.", "material.", "bark.", "wood."}) {
+  for (const std::string_view section :
+       {"surface.", "junction.", "bend.", "camera.", "sun.", "sky.", "ground.", "material.", "bark.", "wood."}) {
     if (key.starts_with(section)) return true;
   }
   return false;

@@ -291,6 +291,20 @@ void add_turtle_keys(Keys& keys) {
 }
 
 void add_surface_keys(Keys& keys) {
+  keys.push_back(choice<SurfaceMethod>(
+      "surface.method",
+      {{SurfaceMethod::kImplicit, "implicit"},
+       {SurfaceMethod::kTemplates, "templates"},
+       {SurfaceMethod::kHull, "hull"},
+       {SurfaceMethod::kCylinders, "cylinders"}},
+      [](auto& s) -> auto& { return s.surface.method; },
+      "How the model gets its surface: by the field of its BlobTree, or by Loop subdivision of a control mesh."));
+  keys.push_back(integer(
+      "surface.level", 0, 10, [](auto& s) -> auto& { return s.surface.level; },
+      "Times that each triangle of a control mesh is split in four."));
+  keys.push_back(flag(
+      "surface.limit", [](auto& s) -> auto& { return s.surface.limit; },
+      "Whether the vertices of a refined control mesh are moved to its limit surface."));
   keys.push_back(choice<JunctionKind>(
       "junction.kind", {{JunctionKind::kRidge, "ridge"}, {JunctionKind::kSmooth, "smooth"}},
       [](auto& s) -> auto& { return s.tree.junction; }, "Whether branches that meet raise a bark ridge or blend."));

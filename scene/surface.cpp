@@ -1,0 +1,65 @@
+#include "scene/surface.h"
+
+#include "base/error.h"
+#include "polygonize/polygonize.h"
+#include "subdivision/cylinder_mesh.h"
+#include "subdivision/hull.h"
+#include "subdivision/limit.h"
+#include "subdivision/loop.h"
+#include "subdivision/template_mesh.h"
+#include "subdivision/to_mesh.h"
+
+namespace barkridge {
+
+namespace {
+
+// Loop's limit curve of a regular hexagon is 5/6 as wide, so that branches get the thickness that the skeleton states.
+constexpr double kHexagonScale = 1.2;
+
+}  // namespace
+
+bool is_subdivided(const Scene& scene) { return scene.surface.method != SurfaceMethod::kImplicit; }
+
+ControlMesh make_control_mesh(const Scene& scene, const Skeleton& skeleton) {
+  if (!has_skeleton(scene)) {
+    throw InputError({scene.model.file, 0, 0, ""},
+                     "expected a model with a skeleton for a control mesh; this one is a tree written by hand");
+  }
+  StemOptions stem;
+  stem.radius_scale = kHexagonScale;
+  switch (scene.surface.method) {
+    case SurfaceMethod::kTemplates: {
+      TemplateOptions options;
+      options.stem = stem;
+      return template_mesh(skeleton, options);
+    }
+    case SurfaceMethod::kHull:
+      return hull_mesh(skeleton);
+    case SurfaceMethod::kCylinders:
+      return cylinder_mesh(skeleton, stem);
+    case SurfaceMethod::kImplicit:
+      break;
+  }
+  throw InputError({scene.model.file, 0, 0, ""}, "expected a surface.method that makes a control mesh");
+}
+
+Mesh refine(const Scene& scene, const ControlMesh& control, std::size_t max_triangles) {
+  LoopOptions options;
+  options.max_triangles = max_triangles;
+  if (!scene.surface.limit) return to_mesh(subdivide(control, scene.surface.level, options));
+  LimitSurface surface = limit_surface(control, scene.surface.level, options);
+  surface.mesh.texture = std::move(surface.texture);
+  surface.mesh.texture_triangles = std::move(surface.texture_triangles);
+  return std::move(surface.mesh);
+}
+
+Mesh implicit_mesh(const Scene& scene, const Model& model, const Field& field, std::size_t max_triangles,
+                   const Progress& progress) {
+  PolygonizeOptions options;
+  options.cell_size = cell_size(scene, model);
+  options.max_triangles = max_triangles;
+  options.progress = progress;
+  return polygonize(field, options);
+}
+
+}  // namespace barkridge
