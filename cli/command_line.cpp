@@ -60,7 +60,10 @@ struct Written {
   std::string scene, size, region, points, steps, seed, samples, cell_size, surface, level, statistics, max_modules,
       max_memory;
   std::vector<std::string> definitions, outputs;
-  int threads = 0;
+  std::vector<std::string> scenes;
+  std::string folder;
+  std::size_t most_internodes = StudyArguments{}.most_internodes;
+  int threads = 0, turns = StudyArguments{}.turns;
   bool quiet = false, json = false;
 };
 
@@ -149,6 +152,22 @@ void add_verbs(CLI::App& app, Written& written) {
   CLI::App& info = add_verb(app, written, "info", "Prints what the model consists of: counts, depth, bounds, memory.",
                             "Example: barkridge info poplar.toml --json");
   info.add_flag("--json", written.json, "As one JSON object");
+
+  CLI::App& study = *app.add_subcommand("study", "Compares implicit and subdivision surfaces, and writes a report.");
+  study.group("Verbs");
+  study.footer(footer(
+      "Writes report.html, which needs no other file, report.json, and a CSV file a table. Runs take turns, each in a "
+      "process of its own; with the large trees it takes half an hour. Example: barkridge study -o study --largest "
+      "2047"));
+  add(study, "SCENES", written.scenes, "",
+      "Scenes whose models have skeletons; by default the study's own models, which it writes into the folder");
+  add(study, "-o,--output", written.folder, "FOLDER", "The folder to write to; it is made if need be")->required();
+  add(study, "--largest", written.most_internodes, "N", "Most internodes of its own models; by default 200000");
+  add(study, "--turns", written.turns, "N", "Times that everything is measured; by default 3")
+      ->check(CLI::Range(1, 1000).description(""));
+  add(study, "-t,--threads", written.threads, "N", "Threads of each run; 0, the default, means all")
+      ->check(CLI::Range(0, 1024).description(""));
+  study.add_flag("-q,--quiet", written.quiet, "No progress bar");
 }
 
 // Options that stand for keys of the scene become overrides, so that the scene's table alone decides what is right.
@@ -229,6 +248,10 @@ Verb interpret_verb(const std::string& name, const Written& written) {
     arguments.points = written.points;
     return arguments;
   }
+  if (name == "study") {
+    return StudyArguments{written.scenes, written.folder,  written.most_internodes,
+                          written.turns,  written.threads, written.quiet};
+  }
   InfoArguments arguments;
   interpret_scene_options(written, arguments);
   arguments.json = written.json;
@@ -273,7 +296,8 @@ std::variant<Command, HelpText> parse_command_line(int argc, const char* const* 
   if (help_keys) return HelpText{keys_help()};
   const auto verbs = app.get_subcommands();
   if (verbs.empty())
-    throw InputError("expected a verb: render, mesh, grow, skeleton, field or info\nRun `barkridge --help` for help.");
+    throw InputError(
+        "expected a verb: render, mesh, grow, skeleton, field, info or study\nRun `barkridge --help` for help.");
   return Command{interpret_verb(verbs.front()->get_name(), written), written.threads};
 }
 

@@ -34,6 +34,14 @@ struct FieldArguments : SceneArguments {
 struct InfoArguments : SceneArguments {
   bool json = false;
 };
+struct StudyArguments {
+  std::vector<std::string> scenes;  ///< none for the study's own models
+  std::string folder;
+  std::size_t most_internodes = 200'000;
+  int turns = 3;
+  int threads = 0;  ///< of each run
+  bool quiet = false;
+};
 
 /// Each does its verb's work and throws whatever goes wrong.
 void run(const RenderArguments& arguments);
@@ -42,8 +50,9 @@ void run(const GrowArguments& arguments);
 void run(const SkeletonArguments& arguments);
 void run(const FieldArguments& arguments);
 void run(const InfoArguments& arguments);
+void run(const StudyArguments& arguments);
 
-using Verb =
-    std::variant<RenderArguments, MeshArguments, GrowArguments, SkeletonArguments, FieldArguments, InfoArguments>;
+using Verb = std::variant<RenderArguments, MeshArguments, GrowArguments, SkeletonArguments, FieldArguments,
+                          InfoArguments, StudyArguments>;
 
 }  // namespace barkridge::cli

@@ -15,6 +15,16 @@ namespace {
 
 // Loop's limit curve of a regular hexagon is 5/6 as wide, so that branches get the thickness that the skeleton states.
 constexpr double kHexagonScale = 1.2;
+// And of a square, 2/3.
+constexpr double kSquareScale = 1.5;
+
+Skeleton thickened(Skeleton skeleton, double factor) {
+  for (Internode& internode : skeleton.internodes) {
+    internode.base_radius *= factor;
+    internode.tip_radius *= factor;
+  }
+  return skeleton;
+}
 
 }  // namespace
 
@@ -34,7 +44,7 @@ ControlMesh make_control_mesh(const Scene& scene, const Skeleton& skeleton) {
       return template_mesh(skeleton, options);
     }
     case SurfaceMethod::kHull:
-      return hull_mesh(skeleton);
+      return hull_mesh(thickened(skeleton, kSquareScale));
     case SurfaceMethod::kCylinders:
       return cylinder_mesh(skeleton, stem);
     case SurfaceMethod::kImplicit:

@@ -1,6 +1,5 @@
 #include "bench/support/machine.h"
 
-#include <fmt/format.h>
 #include <hwy/highway.h>
 #include <malloc.h>
 #include <stdlib.h>
@@ -10,22 +9,11 @@
 #include <string>
 #include <thread>
 
-#include "bench/support/commit.h"
+#include "study/machine.h"
 
 namespace barkridge::bench {
 
 namespace {
-
-// The rest of the first line of `file` that starts with `key`, without blanks and colon before it.
-std::string value_in(const char* file, const std::string& key) {
-  std::ifstream lines(file);
-  for (std::string line; std::getline(lines, line);) {
-    if (!line.starts_with(key)) continue;
-    const std::size_t start = line.find_first_not_of(": \t", key.size());
-    return start == std::string::npos ? "" : line.substr(start);
-  }
-  return "";
-}
 
 std::size_t kilobytes_in_status(const std::string& key) {
   const std::string value = value_in("/proc/self/status", key);
@@ -50,14 +38,11 @@ std::string instruction_sets() {
 }  // namespace
 
 nlohmann::ordered_json machine_facts() {
-  const double memory = static_cast<double>(machine_memory());
-  return {{"processor", value_in("/proc/cpuinfo", "model name")},
-          {"cores", core_count()},
-          {"memory", fmt::format("{:.0f} GiB", memory / (1u << 30))},
-          {"instruction sets", instruction_sets()},
-          {"compiler", "g++ " __VERSION__},
-          {"commit", BARKRIDGE_COMMIT},
-          {"load", load_average()}};
+  nlohmann::ordered_json facts;
+  for (const auto& [name, value] : barkridge::machine_facts()) facts[name] = value;
+  facts["instruction sets"] = instruction_sets();
+  facts["load"] = load_average();
+  return facts;
 }
 
 int core_count() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }

@@ -6,7 +6,7 @@
 
 namespace barkridge::bench {
 
-/// Processor, cores, memory, instruction sets, compiler, the commit that was built, and how busy the machine is now.
+/// Those of the study (study/machine.h), instruction sets, and how busy the machine is now.
 nlohmann::ordered_json machine_facts();
 
 int core_count();
