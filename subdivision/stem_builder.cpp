@@ -64,7 +64,6 @@ StemBuilder::StemBuilder(const Skeleton& skeleton, const Branches& branches, std
     throw LimitError(fmt::format("the control mesh may need {} vertices, more than {}: dress a part of the skeleton",
                                  vertices, kMostVertices));
   }
-  for (const Internode& internode : skeleton.internodes) newest_ = std::max(newest_, internode.birth_step);
   reserve_large(mesh_.positions, vertices);
   reserve_large(mesh_.internodes, vertices);
   reserve_large(mesh_.triangles, 2 * vertices);
@@ -75,11 +74,6 @@ StemBuilder::StemBuilder(const Skeleton& skeleton, const Branches& branches, std
 std::uint32_t StemBuilder::add_vertex(const Vec3& position, InternodeId internode) {
   mesh_.positions.emplace_back(position);
   mesh_.internodes.push_back(internode);
-  // Births that are all 0 say nothing.
-  if (newest_ > 0) {
-    const std::int32_t birth = skeleton_.internodes[static_cast<std::size_t>(internode)].birth_step;
-    mesh_.ages.push_back(static_cast<float>(newest_ - birth));
-  }
   return static_cast<std::uint32_t>(mesh_.positions.size() - 1);
 }
 
@@ -220,6 +214,11 @@ void StemBuilder::unroll_triangle(const StemRing& owner, const std::array<std::u
     mesh_.texture.emplace_back(turns, owner.v + place.along / (2 * kPi * owner.radius));
   }
   mesh_.texture_triangles.push_back({first, first + 1, first + 2});
+}
+
+ControlMesh StemBuilder::take() {
+  mesh_.ages = ages_of(mesh_.internodes, skeleton_);
+  return std::move(mesh_);
 }
 
 }  // namespace barkridge

@@ -47,7 +47,7 @@ class StemBuilder {
   void add_joint(std::span<const StemRing> rings, const Vec3& normal);
 
   /// The mesh. The builder is empty then.
-  ControlMesh take() { return std::move(mesh_); }
+  ControlMesh take();
 
  private:
   std::uint32_t add_vertex(const Vec3& position, InternodeId internode);
@@ -61,7 +61,6 @@ class StemBuilder {
   const Skeleton& skeleton_;
   StemOptions options_;
   double longest_path_;
-  std::int32_t newest_ = 0;  // birth step
   ControlMesh mesh_;
 };
 
