@@ -17,6 +17,26 @@ constexpr double kCollarLength = 1.0;
 // What joints may take of a branch's length.
 constexpr double kMostTaken = 0.8;
 
+// How far along an axis its direction at a joint is measured, in radii of the joint's thickest branch: about as far as
+// branches are cut back, so that curved ones are where they part.
+constexpr double kReach = 2.0;
+
+Vec3 direction_or(const Vec3& direction, const Vec3& otherwise) {
+  return glm::length(direction) > 0 ? glm::normalize(direction) : glm::normalize(otherwise);
+}
+
+// The directions in which an axis leaves the joint at its base, and the one at its tip. An axis that returns to the
+// joint has that of its internode there.
+Vec3 from_base(std::span<const BranchNode> axis, double reach) {
+  const Vec3 joint = axis.front().position;
+  return direction_or(point_on(axis, std::min(reach, axis.back().along)).position - joint, axis[1].position - joint);
+}
+Vec3 from_tip(std::span<const BranchNode> axis, double reach) {
+  const Vec3 joint = axis.back().position;
+  return direction_or(point_on(axis, std::max(0.0, axis.back().along - reach)).position - joint,
+                      axis[axis.size() - 2].position - joint);
+}
+
 void check_options(const JointOptions& options) {
   const auto check = [](bool good, const char* name, double value, const char* expected) {
     if (!good) throw InputError(fmt::format("{} is {}: expected {}", name, value, expected));
@@ -37,13 +57,16 @@ class JointPlanner {
     const Branch& branch = branches_.branches[carrier];
     const auto children = branches_.children_of(branch);
     const auto axis = branches_.axis(branch);
-    const BranchNode& end = axis.back();
+    double reach = axis.back().radius;
+    for (const std::uint32_t child : children) {
+      reach = std::max(reach, branches_.axis(branches_.branches[child]).front().radius);
+    }
+    reach *= kReach * scale_;
     met_.clear();
-    met_.push_back({glm::normalize(axis[axis.size() - 2].position - end.position), end.radius * scale_, end.internode});
+    met_.push_back({from_tip(axis, reach), axis.back().radius * scale_, axis.back().internode});
     for (const std::uint32_t child : children) {
       const auto child_axis = branches_.axis(branches_.branches[child]);
-      met_.push_back({glm::normalize(child_axis[1].position - child_axis[0].position), child_axis[0].radius * scale_,
-                      child_axis[0].internode});
+      met_.push_back({from_base(child_axis, reach), child_axis[0].radius * scale_, child_axis[0].internode});
     }
     const Vec3 normal = branching_plane(met_, options_.max_out_of_plane_degrees);
     sort(children, around(met_, normal));

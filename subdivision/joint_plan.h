@@ -31,8 +31,9 @@ struct Cut {
 };
 
 /// The cuts of all branches [MacM04, eqs. 5.1, 5.2]; sorts every branch's children counter-clockwise around the normal
-/// of their joint, from the branch itself on. Radii count `radius_scale` times. A branch too short for what its joints
-/// need at both ends keeps a fifth of its length, and they share the rest in proportion.
+/// of their joint, from the branch itself on. Radii count `radius_scale` times. A curved branch's direction at a
+/// joint is that to the point of its axis two radii of the joint's thickest branch away. A branch too short for what
+/// its joints need at both ends keeps a fifth of its length, and they share the rest in proportion.
 ///
 /// Throws `InputError` for options out of range and for what `branching_plane` refuses. Cost: linear in internodes,
 /// quadratic in the branches of one joint.

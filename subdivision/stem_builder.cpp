@@ -17,6 +17,11 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kCornerAngle = 2 * kPi / kRingSize;
 
+// The regular hexagon.
+constexpr double kHalfRoot3 = std::numbers::sqrt3 / 2;
+constexpr std::array<std::array<double, 2>, kRingSize> kCorners{
+    {{1, 0}, {0.5, kHalfRoot3}, {-0.5, kHalfRoot3}, {-1, 0}, {-0.5, -kHalfRoot3}, {0.5, -kHalfRoot3}}};
+
 // The place on a cylinder around the ring's axis that is nearest to a point: turns from the ring's first corner, and
 // distance along the axis.
 struct Unrolled {
@@ -89,8 +94,8 @@ StemRing StemBuilder::add_ring(const AxisPoint& at, const Frame& frame, const St
   ring.first_texture = static_cast<std::uint32_t>(mesh_.texture.size());
   const Vec3 binormal = frame.binormal();
   for (std::uint32_t corner = 0; corner < kRingSize; ++corner) {
-    const double angle = kCornerAngle * corner;
-    add_vertex(ring.center + ring.radius * (std::cos(angle) * frame.normal + std::sin(angle) * binormal), at.internode);
+    const auto [x, y] = kCorners[corner];
+    add_vertex(ring.center + ring.radius * (x * frame.normal + y * binormal), at.internode);
   }
   const auto v = static_cast<float>(ring.v);
   if (options_.texture == StemTexture::kReflected) {
