@@ -30,7 +30,7 @@ struct Cut {
   Vec3 normal{0};     ///< of the plane of that joint, if there is one
 };
 
-/// The cuts of all branches [MacM04, eqs. 5.1, 5.2]; sorts every branch's children counter-clockwise around the normal
+/// The cuts of all branches [Mac04, eqs. 5.1, 5.2]; sorts every branch's children counter-clockwise around the normal
 /// of their joint, from the branch itself on. Radii count `radius_scale` times. A curved branch's direction at a
 /// joint is that to the point of its axis two radii of the joint's thickest branch away. A branch too short for what
 /// its joints need at both ends keeps a fifth of its length, and they share the rest in proportion.

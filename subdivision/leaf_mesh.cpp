@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -114,7 +115,7 @@ class LeafDresser {
     return static_cast<std::uint32_t>(mesh_.texture.size() - 1);
   }
 
-  // `right_margin` is the vertex that takes that margin's place, if there is one already.
+  // `right` is the neighbour on that side, if its margin is to be shared.
   LeafRow add_row(const AxisPoint& at, const Frame& frame, const Flat& flat, double v, const LeafRow* right = nullptr) {
     LeafRow row{frame, at.radius, flat, v, at.internode, {}, {}};
     const double fold = options_.fold_degrees * kRadiansPerDegree;

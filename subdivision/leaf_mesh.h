@@ -1,8 +1,6 @@
 #pragma once
 // Leaves: open sheets along the axes of a skeleton, simple or compound.
 
-#include <limits>
-
 #include "subdivision/control_mesh.h"
 #include "subdivision/joint_plan.h"
 
@@ -37,7 +35,7 @@ struct LeafOptions {
   JointOptions joint;
 };
 
-/// Dresses a skeleton as a leaf [MacM04, section 5.4]: at the ends of internodes cross-sections of margin, midrib and
+/// Dresses a skeleton as a leaf [Mac04, section 5.4]: at the ends of internodes cross-sections of margin, midrib and
 /// margin, the skeleton's radius being half the width of the blade; branches of any number at a joint that lie in a
 /// plane, cut back by equations 5.1 and 5.2, and joined by triangles around the end of the carrying midrib. The margins
 /// of neighbouring branches start at a common vertex. Cross-sections before a joint lie in its plane. Triangles are

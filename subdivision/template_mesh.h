@@ -12,7 +12,7 @@ struct TemplateOptions {
   JointOptions joint;
 };
 
-/// Dresses a skeleton by junction templates [MacM04, chapter 5]: hexagonal cross-sections on parallel-transport frames
+/// Dresses a skeleton by junction templates [Mac04, chapter 5]: hexagonal cross-sections on parallel-transport frames
 /// at the ends of internodes, branches cut back at joints by equations 5.1 and 5.2, and templates between them
 /// (`triangulate_joint`). The first cross-section of a plant is turned so that its first joint is vertex-forward.
 ///
@@ -22,8 +22,8 @@ struct TemplateOptions {
 /// remains manifold. Nodes closer to a cut than the gap are passed over.
 ///
 /// Throws `InputError` for options out of range, for what `branches_of` and `plan_joints` refuse, and `LimitError`
-/// for more vertices than can be numbered. Cost: linear in internodes (half a microsecond each), quadratic in the
-/// branches of one joint.
+/// for more vertices than can be numbered. Cost: linear in internodes, quadratic in the branches of one joint; some
+/// five microseconds for an internode where most end in joints.
 ControlMesh template_mesh(const Skeleton& skeleton, const TemplateOptions& options = {});
 
 }  // namespace barkridge

@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 #include <tuple>
 
-#include "tests/support/mesh_checks.h"
+#include "tests/subdivision/dressed_mesh.h"
 #include "tests/support/skeletons.h"
 
 using namespace barkridge;
@@ -20,23 +20,29 @@ struct CappedJoint {
   std::size_t joint_triangles = 0;
 };
 
-// Rings around the origin at these angles; bit i of the mask says that ring i is edge-forward.
-CappedJoint capped_joint(const std::vector<double>& degrees, unsigned edge_forward) {
+struct PlacedRing {
+  double degrees, distance = 4, radius = 1;
+};
+
+// Rings around the origin; bit i of the mask says that ring i is edge-forward.
+CappedJoint capped_joint(const std::vector<PlacedRing>& placed, unsigned edge_forward) {
   CappedJoint result;
   Mesh& mesh = result.mesh;
   std::vector<JointRing> rings;
-  for (std::size_t i = 0; i < degrees.size(); ++i) {
+  for (std::size_t i = 0; i < placed.size(); ++i) {
     JointRing ring;
     ring.edge_forward = (edge_forward >> i & 1) != 0;
-    const double a = degrees[i] * kDegree;
+    const auto [degrees, distance, radius] = placed[i];
+    const double a = degrees * kDegree;
     const Vec3 out(std::cos(a), std::sin(a), 0), next_side(-std::sin(a), std::cos(a), 0);
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (std::uint32_t k = 0; k < 6; ++k) {
       const double psi = (60.0 * k + (ring.edge_forward ? 30 : 0)) * kDegree;
-      mesh.positions.emplace_back(4.0 * out + std::cos(psi) * Vec3(0, 0, 1) + std::sin(psi) * next_side);
+      mesh.positions.emplace_back(distance * out +
+                                  radius * (std::cos(psi) * Vec3(0, 0, 1) + std::sin(psi) * next_side));
       ring.vertices[k] = first + k;
     }
-    mesh.positions.emplace_back(4.0 * out);
+    mesh.positions.emplace_back(distance * out);
     for (std::uint32_t k = 0; k < 6; ++k) {
       mesh.triangles.push_back({first + (k + 1) % 6, first + k, first + 6});
     }
@@ -51,21 +57,21 @@ CappedJoint capped_joint(const std::vector<double>& degrees, unsigned edge_forwa
 }  // namespace
 
 TEST_CASE("all combinations of vertex-forward and edge-forward rings close the joints of two to seven branches") {
-  const std::vector<std::vector<double>> joints{{-90, 30, 150},
-                                                {-90, 0, 90, 180},
-                                                {-90, -20, 60, 130, 200},
-                                                {-90, -35, 20, 75, 150, 210},
-                                                {-90, -45, 0, 45, 90, 140, 190, 230}};
-  for (const auto& degrees : joints) {
-    for (unsigned mask = 0; mask < 1U << degrees.size(); ++mask) {
-      CAPTURE(degrees.size(), mask);
-      const CappedJoint joint = capped_joint(degrees, mask);
+  const std::vector<std::vector<PlacedRing>> joints{{{-90}, {30}, {150}},
+                                                    {{-90}, {0}, {90}, {180}},
+                                                    {{-90}, {-20}, {60}, {130}, {200}},
+                                                    {{-90}, {-35}, {20}, {75}, {150}, {210}},
+                                                    {{-90}, {-45}, {0}, {45}, {90}, {140}, {190}, {230}}};
+  for (const auto& rings : joints) {
+    for (unsigned mask = 0; mask < 1U << rings.size(); ++mask) {
+      CAPTURE(rings.size(), mask);
+      const CappedJoint joint = capped_joint(rings, mask);
       const MeshReport report = require_closed_manifold(joint.mesh);
       REQUIRE(report.components == 1);
       REQUIRE(report.genus == 0);
       REQUIRE(report.unused_vertices == 0);
       // Euler's formula: 6 n vertices make a sphere of 12 n - 4 triangles, of which n hexagons take 4 each.
-      REQUIRE(joint.joint_triangles == 8 * degrees.size() - 4);
+      REQUIRE(joint.joint_triangles == 8 * rings.size() - 4);
       REQUIRE(report.volume > 0);
     }
   }
@@ -74,7 +80,7 @@ TEST_CASE("all combinations of vertex-forward and edge-forward rings close the j
 TEST_CASE("a joint's front and back mirror each other") {
   for (unsigned mask = 0; mask < 8; ++mask) {
     CAPTURE(mask);
-    const CappedJoint joint = capped_joint({-90, 30, 150}, mask);
+    const CappedJoint joint = capped_joint({{-90}, {30}, {150}}, mask);
     const auto& positions = joint.mesh.positions;
     std::vector<std::array<glm::vec3, 3>> front, back;
     // Compares what lies entirely in front with what lies entirely behind.
@@ -98,6 +104,19 @@ TEST_CASE("a joint's front and back mirror each other") {
         return true;
       });
       CHECK(found);
+    }
+  }
+}
+
+TEST_CASE("all 8 right and 8 left asymmetric templates join a collar to a trunk without crossing") {
+  for (const bool right : {true, false}) {
+    for (unsigned mask = 0; mask < 8; ++mask) {
+      CAPTURE(right, mask);
+      const PlacedRing carrier{-90, 0.6, 1}, neighbour{90, 0.6, 1}, collar{right ? 10.0 : 170.0, 1.2, 0.3};
+      const CappedJoint joint =
+          capped_joint(right ? std::vector{carrier, collar, neighbour} : std::vector{carrier, neighbour, collar}, mask);
+      CHECK(require_closed_manifold(joint.mesh).genus == 0);
+      CHECK(crossings(joint.mesh) == 0);
     }
   }
 }

@@ -98,8 +98,11 @@ TEST_CASE("joints with room around them do not cross themselves") {
       angle += random.uniform(30, 250.0 / count);
     }
     CAPTURE(i, count);
-    const ControlMesh mesh = template_mesh(junction(branches, 20), options_of(static_cast<std::uint64_t>(2 * i)));
+    const TemplateOptions options = options_of(static_cast<std::uint64_t>(2 * i));
+    const ControlMesh mesh = template_mesh(junction(branches, 20), options);
     CHECK(crossings(surface_of(mesh)) == 0);
+    // Cylinders that are not joined do.
+    CHECK(crossings(surface_of(cylinder_mesh(junction(branches, 20), options.stem))) > 0);
     CHECK(require_dressed(mesh).volume > 0);
   }
 }
@@ -117,6 +120,25 @@ TEST_CASE("branches are cut back by the equations and dressed at their radius") 
   double last = -10;
   for (const Vec3& v : vertices_on(mesh, 0)) last = std::max(last, v.y);
   CHECK(last == Approx(-(0.5 + options.joint.gap)));
+}
+
+TEST_CASE("a curved branch is cut back by the angle at which it parts, not that at which it starts") {
+  // Two arcs that start 20 degrees apart and end square: the equations alone would take 5.7 of 12.
+  Skeleton skeleton;
+  skeleton.internodes.push_back({Vec3(0, -10, 0), Vec3(0), 1, 1});
+  for (const double side : {-1.0, 1.0}) {
+    Vec3 at(0);
+    for (int k = 0; k < 12; ++k) {
+      const double angle = side * (10 + 25 * std::min(k, 3)) * kDegree;
+      const Vec3 next = at + Vec3(std::sin(angle), std::cos(angle), 0);
+      const auto last = static_cast<InternodeId>(skeleton.internodes.size()) - 1;
+      skeleton.internodes.push_back({at, next, 1, 1, k == 0 ? 0 : last});
+      at = next;
+    }
+  }
+  const ControlMesh mesh = template_mesh(skeleton);
+  CHECK(crossings(surface_of(mesh)) == 0);
+  CHECK_FALSE(vertices_on(mesh, 4).empty());
 }
 
 TEST_CASE("a branch a third as thick as its neighbour has a collar, a thicker one none") {
