@@ -34,8 +34,8 @@ void check_directions(std::span<const JointBranch> branches) {
   }
 }
 
-// The eigenvector of the smallest eigenvalue of a symmetric matrix, by Jacobi rotations until nothing is left beside the
-// diagonal: four sweeps or so.
+// The eigenvector of the smallest eigenvalue of a symmetric matrix, by Jacobi rotations until nothing is left beside
+// the diagonal: four sweeps or so.
 Vec3 smallest_axis(Mat3 m) {
   Mat3 axes(1);
   const double nothing = 1e-17 * (m[0][0] + m[1][1] + m[2][2]);
