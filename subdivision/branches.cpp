@@ -168,4 +168,15 @@ Vec3 tangent_at(std::span<const BranchNode> axis, std::size_t node) {
   return glm::length(sum) > kTurnsBack ? glm::normalize(sum) : leaving;
 }
 
+std::vector<float> ages_of(std::span<const InternodeId> internodes, const Skeleton& skeleton) {
+  std::int32_t newest = 0;
+  for (const Internode& internode : skeleton.internodes) newest = std::max(newest, internode.birth_step);
+  std::vector<float> ages;
+  reserve_large(ages, internodes.size());
+  for (const InternodeId id : internodes) {
+    ages.push_back(static_cast<float>(newest - skeleton.internodes[static_cast<std::size_t>(id)].birth_step));
+  }
+  return ages;
+}
+
 }  // namespace barkridge

@@ -67,4 +67,8 @@ AxisPoint point_on(std::span<const BranchNode> axis, double along);
 /// The axis' direction at a node: halfway between the two internodes that meet there.
 Vec3 tangent_at(std::span<const BranchNode> axis, std::size_t node);
 
+/// The ages of vertices that dress these internodes, in derivation steps: an internode's counts from its birth to the
+/// youngest's.
+std::vector<float> ages_of(std::span<const InternodeId> internodes, const Skeleton& skeleton);
+
 }  // namespace barkridge

@@ -34,14 +34,16 @@ void check_directions(std::span<const JointBranch> branches) {
   }
 }
 
-// The eigenvector of the smallest eigenvalue of a symmetric matrix, by Jacobi rotations: three sweeps or so.
+// The eigenvector of the smallest eigenvalue of a symmetric matrix, by Jacobi rotations until nothing is left beside
+// the diagonal: four sweeps or so.
 Vec3 smallest_axis(Mat3 m) {
   Mat3 axes(1);
+  const double nothing = 1e-17 * (m[0][0] + m[1][1] + m[2][2]);
   constexpr int kSweeps = 12;
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     for (int p = 0; p < 2; ++p) {
       for (int q = p + 1; q < 3; ++q) {
-        if (m[p][q] == 0) continue;
+        if (std::abs(m[p][q]) <= nothing) continue;
         const double angle = 0.5 * std::atan2(2 * m[p][q], m[q][q] - m[p][p]);
         Mat3 turn(1);
         turn[p][p] = turn[q][q] = std::cos(angle);

@@ -27,7 +27,7 @@ Vec3 branching_plane(std::span<const JointBranch> branches, double max_out_of_pl
 std::vector<std::uint32_t> around(std::span<const JointBranch> branches, const Vec3& normal);
 
 /// How far from the joint a cylinder must begin so that another, at `angle` to it (0 to pi, not included), begins
-/// beside it and not inside it [MacM04, eqs. 5.1, 5.2]: (other + radius cos angle) / sin angle. Where the two walls
+/// beside it and not inside it [Mac04, eqs. 5.1, 5.2]: (other + radius cos angle) / sin angle. Where the two walls
 /// would meet behind the joint on one of the axes, that one begins in the joint and the other where it clears its end;
 /// the equations grow beyond all bounds there, for cylinders of different radii in nearly opposite directions.
 double clearance(double radius, double other, double angle);

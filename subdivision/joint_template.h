@@ -1,5 +1,5 @@
 #pragma once
-// The triangles of a joint between hexagonal cross-sections, put together from templates [MacM04, section 5.5.3].
+// The triangles of a joint between hexagonal cross-sections, put together from templates [Mac04, section 5.5.3].
 
 #include <array>
 #include <cstdint>
@@ -31,7 +31,7 @@ struct JointRing {
 ///     mirror image at the back. 8 at the centre, where all three rings give their corner or edge; 4 to the right of it
 ///     and their mirror images to the left, by the two carried rings, where one corner of the carrying branch serves
 ///     and only the outer branch still has an edge to give.
-/// The collar of a thin branch [MacM04, figure 5.22] is a ring like any other: its 8 left and 8 right templates, by the
+/// The collar of a thin branch [Mac04, figure 5.22] is a ring like any other: its 8 left and 8 right templates, by the
 /// orientations of carrying branch, thin branch and neighbour, are a top, a bottom and a left or right as above, and
 /// the wall from the collar to the branch. Cost: linear.
 void triangulate_joint(std::span<const JointRing> rings, const std::vector<glm::vec3>& positions, const Vec3& normal,

@@ -17,6 +17,11 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kCornerAngle = 2 * kPi / kRingSize;
 
+// The regular hexagon.
+constexpr double kHalfRoot3 = std::numbers::sqrt3 / 2;
+constexpr std::array<std::array<double, 2>, kRingSize> kCorners{
+    {{1, 0}, {0.5, kHalfRoot3}, {-0.5, kHalfRoot3}, {-1, 0}, {-0.5, -kHalfRoot3}, {0.5, -kHalfRoot3}}};
+
 // The place on a cylinder around the ring's axis that is nearest to a point: turns from the ring's first corner, and
 // distance along the axis.
 struct Unrolled {
@@ -64,7 +69,6 @@ StemBuilder::StemBuilder(const Skeleton& skeleton, const Branches& branches, std
     throw LimitError(fmt::format("the control mesh may need {} vertices, more than {}: dress a part of the skeleton",
                                  vertices, kMostVertices));
   }
-  for (const Internode& internode : skeleton.internodes) newest_ = std::max(newest_, internode.birth_step);
   reserve_large(mesh_.positions, vertices);
   reserve_large(mesh_.internodes, vertices);
   reserve_large(mesh_.triangles, 2 * vertices);
@@ -75,11 +79,6 @@ StemBuilder::StemBuilder(const Skeleton& skeleton, const Branches& branches, std
 std::uint32_t StemBuilder::add_vertex(const Vec3& position, InternodeId internode) {
   mesh_.positions.emplace_back(position);
   mesh_.internodes.push_back(internode);
-  // Births that are all 0 say nothing.
-  if (newest_ > 0) {
-    const std::int32_t birth = skeleton_.internodes[static_cast<std::size_t>(internode)].birth_step;
-    mesh_.ages.push_back(static_cast<float>(newest_ - birth));
-  }
   return static_cast<std::uint32_t>(mesh_.positions.size() - 1);
 }
 
@@ -95,8 +94,8 @@ StemRing StemBuilder::add_ring(const AxisPoint& at, const Frame& frame, const St
   ring.first_texture = static_cast<std::uint32_t>(mesh_.texture.size());
   const Vec3 binormal = frame.binormal();
   for (std::uint32_t corner = 0; corner < kRingSize; ++corner) {
-    const double angle = kCornerAngle * corner;
-    add_vertex(ring.center + ring.radius * (std::cos(angle) * frame.normal + std::sin(angle) * binormal), at.internode);
+    const auto [x, y] = kCorners[corner];
+    add_vertex(ring.center + ring.radius * (x * frame.normal + y * binormal), at.internode);
   }
   const auto v = static_cast<float>(ring.v);
   if (options_.texture == StemTexture::kReflected) {
@@ -190,9 +189,10 @@ void StemBuilder::unroll_joint(std::span<const StemRing> rings, std::size_t firs
                                       [](std::uint32_t v, const auto& start) { return v < start.first; }))
         ->second;
   };
+  JointTexture known;
   for (std::size_t t = first_triangle; t < mesh_.triangles.size(); ++t) {
     const auto triangle = mesh_.triangles[t];
-    // Triangles without a side on a ring go on with the branch of lowest rank among theirs: the carrying one first.
+    // Triangles without a side on a ring go on with the first of their branches, the carrying one before all others.
     const StemRing* owner = std::min({ring_of(triangle[0]), ring_of(triangle[1]), ring_of(triangle[2])});
     double longest = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -203,23 +203,46 @@ void StemBuilder::unroll_joint(std::span<const StemRing> rings, std::size_t firs
       longest = side;
       owner = ring;
     }
-    unroll_triangle(*owner, triangle);
+    unroll_triangle(*owner, triangle, known);
   }
 }
 
-void StemBuilder::unroll_triangle(const StemRing& owner, const std::array<std::uint32_t, 3>& triangle) {
-  const auto first = static_cast<std::uint32_t>(mesh_.texture.size());
-  constexpr double kSeam = 1e-6;  // turns
-  double reference = 0;
+void StemBuilder::unroll_triangle(const StemRing& owner, const std::array<std::uint32_t, 3>& triangle,
+                                  JointTexture& known) {
+  const auto on_ring = [&](std::uint32_t vertex) { return vertex - owner.first_vertex < kRingSize; };
+  std::array<Unrolled, 3> places;
+  std::array<double, 3> windings{};  // whole turns on top of the nearest place
+  // All three on the same side of the seam, and the owner's corners where its wall has them.
+  constexpr double kNone = 1e30;
+  double least = kNone, least_on_ring = kNone;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Unrolled place = unrolled(owner, Vec3(mesh_.positions[triangle[i]]));
-    // All three on the same side of the seam, from 0 up where the first is.
-    const double turns =
-        i == 0 ? place.turns - std::floor(place.turns + kSeam) : place.turns - std::round(place.turns - reference);
-    if (i == 0) reference = turns;
-    mesh_.texture.emplace_back(turns, owner.v + place.along / (2 * kPi * owner.radius));
+    places[i] = unrolled(owner, Vec3(mesh_.positions[triangle[i]]));
+    if (i > 0) windings[i] = std::round(places[0].turns - places[i].turns);
+    places[i].turns += windings[i];
+    least = std::min(least, places[i].turns);
+    if (on_ring(triangle[i])) least_on_ring = std::min(least_on_ring, places[i].turns);
   }
-  mesh_.texture_triangles.push_back({first, first + 1, first + 2});
+  constexpr double kSeam = 1e-3;  // turns
+  const double shift = std::floor((least_on_ring < kNone ? least_on_ring : least) + kSeam);
+  std::array<std::uint32_t, 3> corners;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double turns = places[i].turns - shift;
+    const auto corner = static_cast<std::uint32_t>(std::max(0L, std::lround(turns * kRingSize)));
+    if (on_ring(triangle[i]) && corner <= kRingSize && corner % kRingSize == triangle[i] - owner.first_vertex) {
+      corners[i] = texture_at(owner, corner);
+      continue;
+    }
+    const auto next = static_cast<std::uint32_t>(mesh_.texture.size());
+    const std::tuple key(owner.first_vertex, triangle[i], static_cast<int>(std::lround(windings[i] - shift)));
+    corners[i] = known.emplace(key, next).first->second;
+    if (corners[i] == next) mesh_.texture.emplace_back(turns, owner.v + places[i].along / (2 * kPi * owner.radius));
+  }
+  mesh_.texture_triangles.push_back(corners);
+}
+
+ControlMesh StemBuilder::take() {
+  mesh_.ages = ages_of(mesh_.internodes, skeleton_);
+  return std::move(mesh_);
 }
 
 }  // namespace barkridge

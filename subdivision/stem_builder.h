@@ -1,8 +1,12 @@
 #pragma once
 // Stems as rings of vertices and walls between them.
 
+#include <array>
 #include <cstdint>
+#include <map>
 #include <span>
+#include <tuple>
+#include <vector>
 
 #include "subdivision/branches.h"
 #include "subdivision/control_mesh.h"
@@ -47,7 +51,7 @@ class StemBuilder {
   void add_joint(std::span<const StemRing> rings, const Vec3& normal);
 
   /// The mesh. The builder is empty then.
-  ControlMesh take() { return std::move(mesh_); }
+  ControlMesh take();
 
  private:
   std::uint32_t add_vertex(const Vec3& position, InternodeId internode);
@@ -56,12 +60,13 @@ class StemBuilder {
   std::uint32_t texture_at(const StemRing& ring, std::uint32_t corner) const;
   double v_after(const StemRing& before, double radius, double distance) const;
   void unroll_joint(std::span<const StemRing> rings, std::size_t first_triangle);
-  void unroll_triangle(const StemRing& owner, const std::array<std::uint32_t, 3>& triangle);
+  // Texture coordinates of a joint's vertices as seen from a ring, by the ring's first vertex, vertex, and winding.
+  using JointTexture = std::map<std::tuple<std::uint32_t, std::uint32_t, int>, std::uint32_t>;
+  void unroll_triangle(const StemRing& owner, const std::array<std::uint32_t, 3>& triangle, JointTexture& known);
 
   const Skeleton& skeleton_;
   StemOptions options_;
   double longest_path_;
-  std::int32_t newest_ = 0;  // birth step
   ControlMesh mesh_;
 };
 

@@ -12,11 +12,11 @@ enum class TipKind {
 /// How stems get texture coordinates: u runs around a branch, v along it.
 enum class StemTexture {
   /// Without seams: u is 0 and 1 in turn at the corners of a cross-section, so that six reflected copies of a picture
-  /// go around, and v runs from 0 at the base of a plant to 1 at the end of the longest path [MacM04, section 6.4.2].
+  /// go around, and v runs from 0 at the base of a plant to 1 at the end of the longest path [Mac04, section 6.4.2].
   kReflected,
   /// As if unrolled: u runs once around, with a seam, and v grows by 1 over a length that equals the circumference,
   /// which keeps squares square. At joints every triangle goes on with the coordinates of the branch that it shares its
-  /// longest side with, and seams lie where these change [Piet12, section 4.3].
+  /// longest side with, and seams lie where these change [Pie12, section 4.3].
   kCylindrical,
 };
 

@@ -83,4 +83,34 @@ inline Skeleton random_skeleton(std::uint64_t seed, int internodes) {
   return skeleton;
 }
 
+/// A random tree in which the branches at every joint, up to five, lie in a plane with the internode that carries them,
+/// each joint in a plane of its own, with 20 degrees or more between neighbours. `internodes` >= 1.
+inline Skeleton random_planar_skeleton(std::uint64_t seed, int internodes) {
+  RandomSource random(seed);
+  Skeleton skeleton;
+  struct Tip {
+    InternodeId parent;
+    Vec3 position, direction;
+    double radius;
+  };
+  std::vector<Tip> tips{{kNoInternode, random.direction(), random.direction(), random.uniform(0.05, 0.2)}};
+  for (std::size_t next = 0; next < tips.size() && static_cast<int>(skeleton.internodes.size()) < internodes; ++next) {
+    const Tip tip = tips[next];
+    const Vec3 end = tip.position + random.uniform(0.2, 2) * tip.direction;
+    const auto id = static_cast<InternodeId>(skeleton.internodes.size());
+    const double end_radius = tip.radius * random.uniform(0.8, 1);
+    skeleton.internodes.push_back({tip.position, end, tip.radius, end_radius, tip.parent, 0, random.integer(0, 9)});
+    const int children = random.chance(0.4) ? 1 : random.integer(2, 5);
+    const Vec3 side = glm::normalize(glm::cross(tip.direction, random.direction()));
+    double angle = random.uniform(-100, -60);
+    for (int k = 0; k < children; ++k) {
+      const double turn = children == 1 ? random.uniform(-30, 30) : angle;
+      angle += random.uniform(20, 180.0 / children);
+      const Vec3 direction = std::cos(turn * kDegree) * tip.direction + std::sin(turn * kDegree) * side;
+      tips.push_back({id, end, glm::normalize(direction), end_radius * random.uniform(0.15, 1)});
+    }
+  }
+  return skeleton;
+}
+
 }  // namespace barkridge::test
