@@ -157,11 +157,15 @@ void check_triangle_count(std::size_t coarse_triangles, int levels, const LoopOp
   }
 }
 
-LoopLevel refined_level(const ControlMesh& mesh, int levels, Refine what, const LoopOptions& options) {
+LoopLevel refined_level(const ControlMesh& mesh, int levels, Refine what, const LoopOptions& options,
+                        const AfterStep& after_step) {
   check_triangle_count(mesh.triangles.size(), levels, options);
   LoopLevel level = coarse_level(mesh, options);
   if (mesh.triangles.empty()) return level;
-  for (int i = 1; i <= levels; ++i) level = refined(level, i < levels ? Refine::connectivity : what);
+  for (int step = 1; step <= levels; ++step) {
+    level = refined(level, step < levels ? Refine::connectivity : what);
+    if (after_step) after_step(level, step);
+  }
   return level;
 }
 
