@@ -115,15 +115,23 @@ glm::dvec3 unit_or_zero(const glm::dvec3& v) {
   return length > 0 && std::isfinite(length) ? v / length : glm::dvec3(0);
 }
 
-// From the left eigenvectors of the subdominant eigenvalue of a smooth ring [HDD94].
+// Cosine and sine of a turn by the angle between two neighbours of a smooth vertex.
+glm::dvec2 turn_to_next(std::size_t valence) {
+  if (valence == 6) return {0.5, 0.5 * std::numbers::sqrt3};
+  const double angle = 2 * std::numbers::pi / static_cast<double>(valence);
+  return {std::cos(angle), std::sin(angle)};
+}
+
+// From the left eigenvectors of the subdominant eigenvalue of a smooth ring, cosines and sines [HDD94].
 glm::dvec3 smooth_normal(const Ring<glm::dvec3>& ring) {
-  const std::size_t n = ring.neighbours.size();
-  const double angle = 2 * std::numbers::pi / static_cast<double>(n);
+  const glm::dvec2 turn = turn_to_next(ring.neighbours.size());
+  glm::dvec2 weight(1, 0);
   glm::dvec3 u(0), v(0);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double a = angle * static_cast<double>(i);
-    u += std::cos(a) * ring.neighbours[i];
-    v += std::sin(a) * ring.neighbours[i];
+  for (const glm::dvec3& neighbour : ring.neighbours) {
+    const glm::dvec3 side = neighbour - ring.center;  // the weights' sum is 0, and less is lost
+    u += weight.x * side;
+    v += weight.y * side;
+    weight = {weight.x * turn.x - weight.y * turn.y, weight.x * turn.y + weight.y * turn.x};
   }
   return glm::cross(u, v);
 }
@@ -134,19 +142,14 @@ glm::dvec3 smooth_normal(const Ring<glm::dvec3>& ring) {
 // columns of the ring's matrix. (For three triangles this is the well-known 2, 2; -1, -1; -2.) One triangle bends by
 // the crease alone.
 glm::dvec3 side_normal(const Ring<glm::dvec3>& ring, std::size_t first, std::size_t count) {
-  const auto at = [&](std::size_t i) { return ring.neighbours[(first + i) % ring.neighbours.size()]; };
-  const glm::dvec3 along = at(0) - at(count);
-  if (count == 1) return glm::cross(along, at(0) + at(1) - 2.0 * ring.center);
+  // Weights' sums are 0, so sides may stand for neighbours, and 0 for the vertex.
+  const auto side = [&](std::size_t i) { return ring.neighbours[(first + i) % ring.neighbours.size()] - ring.center; };
+  const glm::dvec3 along = side(0) - side(count);
+  if (count == 1) return glm::cross(along, side(0) + side(1));
   const double angle = std::numbers::pi / static_cast<double>(count), c = std::cos(angle), s = std::sin(angle);
-  const double ends = -s * c / ((1 - c) * (1 + 2 * c));
-  glm::dvec3 across = ends * (at(0) + at(count));
-  double total = 2 * ends;
-  for (std::size_t i = 1; i < count; ++i) {
-    const double weight = std::sin(angle * static_cast<double>(i));
-    across += weight * at(i);
-    total += weight;
-  }
-  return glm::cross(along, across - total * ring.center);
+  glm::dvec3 across = -s * c / ((1 - c) * (1 + 2 * c)) * (side(0) + side(count));
+  for (std::size_t i = 1; i < count; ++i) across += std::sin(angle * static_cast<double>(i)) * side(i);
+  return glm::cross(along, across);
 }
 
 glm::dvec3 crease_normal(const Ring<glm::dvec3>& ring, const Kind& kind) {
