@@ -48,8 +48,9 @@ void add_limits(const Sheet<glm::vec3>& sheet, const std::vector<std::uint32_t>&
   mesh.normals.resize(count);
   tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t i) {
     if (places[i] == kNone || places[i] < known) return;
-    mesh.positions[places[i]] = limit_value(sheet, static_cast<std::uint32_t>(i));
-    mesh.normals[places[i]] = limit_normal(sheet, static_cast<std::uint32_t>(i));
+    const LimitPoint point = limit_point(sheet, static_cast<std::uint32_t>(i));
+    mesh.positions[places[i]] = point.position;
+    mesh.normals[places[i]] = point.normal;
   });
 }
 
@@ -58,7 +59,7 @@ void add_limits(const Sheet<glm::vec2>& sheet, const std::vector<std::uint32_t>&
   texture.resize(count);
   tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t i) {
     if (places[i] == kNone || places[i] < known) return;
-    texture[places[i]] = limit_value(sheet, static_cast<std::uint32_t>(i));
+    texture[places[i]] = limit_texture(sheet, static_cast<std::uint32_t>(i));
   });
 }
 

@@ -165,6 +165,15 @@ Ring<Value> refined_often(Ring<Value> ring, int steps) {
   return ring;
 }
 
+// Of a ring that is not semi-sharp; 0 at corners and where the surface has none.
+glm::dvec3 sharp_limit_normal(const Ring<glm::dvec3>& ring) {
+  const Kind kind = kind_of(ring, 0);
+  if (kind.rule == Rule::corner) return glm::dvec3(0);
+  if (kind.rule == Rule::crease) return crease_normal(ring, kind);
+  if (kind.sharp_edges == 0) return smooth_normal(ring);
+  return mean_normal(refined_often(ring, kDartNormalSteps));
+}
+
 }  // namespace
 
 double neighbour_weight(std::size_t valence) {
@@ -205,43 +214,32 @@ Ring<Value> refined(Ring<Value> ring) {
 }
 
 template <class Value>
-Value limit_position(Ring<Value> ring) {
-  if (is_semi_sharp(ring)) ring = after_sharpness(std::move(ring));
+Value limit_position(const Ring<Value>& ring) {
+  if (is_semi_sharp(ring)) return limit_position(after_sharpness(ring));
   const Kind kind = kind_of(ring, 0);
   if (kind.rule == Rule::corner) return ring.center;
   if (kind.rule == Rule::crease) {
     return (4.0 * ring.center + ring.neighbours[kind.crease[0]] + ring.neighbours[kind.crease[1]]) / 6.0;
   }
-  if (kind.sharp_edges == 1) return refined_often(std::move(ring), kDartSteps).center;
+  if (kind.sharp_edges == 1) return refined_often(ring, kDartSteps).center;
   const auto valence = static_cast<double>(ring.neighbours.size());
   const double weight = 1 / (valence + 3 / (8 * neighbour_weight(ring.neighbours.size())));
   return (1 - valence * weight) * ring.center + weight * sum(ring.neighbours);
 }
 
-glm::dvec3 limit_normal(Ring<glm::dvec3> ring) {
-  const glm::dvec3 mean = mean_normal(ring);
-  if (is_semi_sharp(ring)) ring = after_sharpness(std::move(ring));
-  const Kind kind = kind_of(ring, 0);
-  glm::dvec3 normal(0);
-  if (kind.rule == Rule::crease) {
-    normal = crease_normal(ring, kind);
-  } else if (kind.rule == Rule::smooth && kind.sharp_edges == 0) {
-    normal = smooth_normal(ring);
-  } else if (kind.rule == Rule::smooth) {
-    normal = mean_normal(refined_often(std::move(ring), kDartNormalSteps));
-  }
-  for (const glm::dvec3& candidate : {normal, mean, glm::dvec3(0, 1, 0)}) {
-    const glm::dvec3 unit = unit_or_zero(candidate);
-    if (unit != glm::dvec3(0)) return unit;
-  }
-  return {};
+glm::dvec3 limit_normal(const Ring<glm::dvec3>& ring) {
+  const glm::dvec3 normal =
+      unit_or_zero(is_semi_sharp(ring) ? sharp_limit_normal(after_sharpness(ring)) : sharp_limit_normal(ring));
+  if (normal != glm::dvec3(0)) return normal;
+  const glm::dvec3 mean = unit_or_zero(mean_normal(ring));
+  return mean != glm::dvec3(0) ? mean : glm::dvec3(0, 1, 0);
 }
 
 template glm::dvec2 refined_center(const Ring<glm::dvec2>&);
 template glm::dvec3 refined_center(const Ring<glm::dvec3>&);
 template Ring<glm::dvec2> refined(Ring<glm::dvec2>);
 template Ring<glm::dvec3> refined(Ring<glm::dvec3>);
-template glm::dvec2 limit_position(Ring<glm::dvec2>);
-template glm::dvec3 limit_position(Ring<glm::dvec3>);
+template glm::dvec2 limit_position(const Ring<glm::dvec2>&);
+template glm::dvec3 limit_position(const Ring<glm::dvec3>&);
 
 }  // namespace barkridge
