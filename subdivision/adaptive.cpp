@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -72,7 +71,7 @@ class Tolerance {
   Tolerance(const LoopLevel& coarse, const AdaptiveOptions& options)
       : coarse_(coarse), options_(options), angle_(options.max_angle_degrees * std::numbers::pi / 180) {}
 
-  // Leaves that are to be split because of piece `t`, as a flag: at an edge, a crease or a boundary of it.
+  // Whether piece `t` meets a neighbour at too great an angle, or has part of a crease or boundary that turns too much.
   bool is_violated(const Candidate& candidate, std::uint32_t t) const {
     for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
       if (dihedral_angle(candidate, h) > angle_) return true;

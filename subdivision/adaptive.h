@@ -27,6 +27,6 @@ struct AdaptiveOptions {
 ///
 /// Throws as `subdivide`, and `InputError` for tolerances out of range. A round splits all triangles that violate the
 /// tolerance; there are a few more than levels, each in proportion to its result.
-LimitSurface subdivide_adaptively(const ControlMesh& mesh, const AdaptiveOptions& options);
+LimitSurface subdivide_adaptively(const ControlMesh& mesh, const AdaptiveOptions& options = {});
 
 }  // namespace barkridge

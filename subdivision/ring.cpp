@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -12,9 +11,6 @@ namespace barkridge {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// So many steps leave less of a ring than doubles can tell.
-constexpr double kForEver = 32;
 // A dart's ring is within 0.66^n of its limit after n steps, and as near to flat after half as many.
 constexpr int kDartSteps = 50, kDartNormalSteps = 20;
 
@@ -82,21 +78,13 @@ double share_of_sharper_rule(const Ring<Value>& ring) {
 
 template <class Value>
 bool is_semi_sharp(const Ring<Value>& ring) {
-  const auto finite = [](double sharpness) { return sharpness > 0 && sharpness <= kForEver; };
+  const auto finite = [](double sharpness) { return sharpness > 0 && std::isfinite(sharpness); };
   return finite(ring.center_sharpness) || std::any_of(ring.sharpness.begin(), ring.sharpness.end(), finite);
 }
 
 template <class Value>
 Ring<Value> after_sharpness(Ring<Value> ring) {
-  while (is_semi_sharp(ring)) {
-    ring = refined(std::move(ring));
-    // What counts as infinite stays so.
-    const auto keep = [](double& sharpness) {
-      if (sharpness > kForEver - 1) sharpness = kInfinity;
-    };
-    keep(ring.center_sharpness);
-    for (double& sharpness : ring.sharpness) keep(sharpness);
-  }
+  while (is_semi_sharp(ring)) ring = refined(std::move(ring));
   return ring;
 }
 

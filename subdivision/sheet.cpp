@@ -1,13 +1,12 @@
 #include "subdivision/sheet.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <array>
 #include <limits>
 
 #include "base/large_room.h"
+#include "subdivision/ring.h"
 
 namespace barkridge {
 

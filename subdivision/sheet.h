@@ -9,7 +9,6 @@
 #include <glm/vec3.hpp>
 
 #include "subdivision/half_edges.h"
-#include "subdivision/ring.h"
 
 namespace barkridge {
 

@@ -125,6 +125,13 @@ TEST_CASE("creases have the mean of both sides' normals, corners that of the tri
   CHECK(angle(limit.mesh.normals[7], {0, -1, 1}) < 1e-5);
 }
 
+TEST_CASE("very sharp is sharp for ever") {
+  ControlMesh mesh = octahedron(), for_ever = mesh;
+  mesh.sharp_edges = {{{0, 2}, 1e9F}, {{2, 1}, 1e9F}};
+  for_ever.sharp_edges = {{{0, 2}, kInfinitelySharp}, {{2, 1}, kInfinitelySharp}};
+  CHECK(limit_surface(mesh, 2).mesh.positions == limit_surface(for_ever, 2).mesh.positions);
+}
+
 TEST_CASE("a mesh of no area has normals all the same") {
   ControlMesh mesh = octahedron();
   for (auto& p : mesh.positions) p = glm::vec3(1, 2, 3);
