@@ -33,7 +33,7 @@ struct Sheet {
 
 /// One step of Loop subdivision: connectivity as of `refined(const HalfEdges&)`; values by the masks of [Loop87];
 /// creases and corners, sharp for ever or for some steps, by those of [HDD94] and [DKT98] (subdivision/ring.h).
-/// Vertices without triangles stay. Parallel, about 10 ns a triangle of the result.
+/// Vertices without triangles stay. Parallel, O(n).
 template <class Value>
 Sheet<Value> refined(const Sheet<Value>& sheet, Refine what);
 
