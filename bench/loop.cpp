@@ -9,7 +9,6 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -138,7 +137,9 @@ void measure_case(const ControlMesh& mesh, std::size_t internodes, int levels, c
     const double ratio = paired_ratio(samples[0], ours);
     table.rows.push_back({internodes, levels, million, threads, samples[0].median(), ours.median(), ours.lowest(),
                           ours.highest(), ratio, million / ours.median(), limit.median()});
-    study.figure(fmt::format("loop_speed_{}_{}_{}", internodes, levels, threads), ratio);
+    const bool all = threads == *options.threads.rbegin();
+    if (all) study.figure(fmt::format("loop_{}_level_{}", internodes, levels), ratio);
+    if (threads == 1) study.figure(fmt::format("loop_{}_level_{}_one_thread", internodes, levels), ratio);
     next += 2;
   }
 }

@@ -3,7 +3,7 @@
 build_packages=(g++ cmake ninja-build libembree-dev libopenimageio-dev openimageio-tools libpng-dev libtbb-dev libhwy-dev
                 libglm-dev libcli11-dev libtomlplusplus-dev libfmt-dev nlohmann-json3-dev libssl-dev libqhull-dev)
 test_packages=(catch2 libcgal-dev libosd-dev povray)
-bench_packages=(povray blender libopenvdb-dev python3-vtk9)  # for bench/report, which goes without them too
+bench_packages=(povray blender libopenvdb-dev libosd-dev python3-vtk9)  # for bench/report, which goes without them too
 
 setup_packages() {
   local missing=() package

@@ -14,13 +14,13 @@ LimitSurface limit_surface(const ControlMesh& mesh, int levels, const LoopOption
   resize_large(limit.mesh.positions, vertex_count);
   resize_large(limit.mesh.normals, vertex_count);
   tbb::parallel_for(std::size_t{0}, vertex_count, [&](std::size_t i) {
-    const auto v = static_cast<std::uint32_t>(i);
-    limit.mesh.positions[i] = limit_value(level.surface, v);
-    limit.mesh.normals[i] = limit_normal(level.surface, v);
+    const LimitPoint point = limit_point(level.surface, static_cast<std::uint32_t>(i));
+    limit.mesh.positions[i] = point.position;
+    limit.mesh.normals[i] = point.normal;
   });
   resize_large(limit.texture, level.charts.values.size());
   tbb::parallel_for(std::size_t{0}, limit.texture.size(), [&](std::size_t i) {
-    limit.texture[i] = limit_value(level.charts, static_cast<std::uint32_t>(i));
+    limit.texture[i] = limit_texture(level.charts, static_cast<std::uint32_t>(i));
   });
   limit.mesh.triangles = std::move(level.surface.mesh.triangles);
   limit.texture_triangles = std::move(level.charts.mesh.triangles);

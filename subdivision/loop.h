@@ -27,7 +27,7 @@ struct LoopOptions {
 ///
 /// A step's vertices are those before it, with their numbers, then one an edge; triangle `t` becomes `4 t` .. `4 t +
 /// 3`, the last in the middle. New vertices get the mean age of their edge's ends, and the younger, higher internode of
-/// both. Sharpnesses of the result are what is left of them.
+/// both. Sharpnesses of the result are what is left of them; more than 32 is as good as infinite.
 ///
 /// Throws as `check`; `InputError` for negative levels; `LimitError` before memory is taken. The result does not depend
 /// on threads. Parallel; memory and time in proportion to the result.

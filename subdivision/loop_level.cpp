@@ -26,16 +26,21 @@ std::uint32_t find_edge(const HalfEdges& mesh, std::uint32_t a, std::uint32_t b)
   return found;
 }
 
+// A step halves edges: after so many no surface is left to tell sharp for long from sharp for ever.
+constexpr float kForEver = 32;
+
+float lasting(float sharpness) { return sharpness > kForEver ? kInfinitelySharp : sharpness; }
+
 // Sharpness of edges and vertices that are named twice is the greater one.
 void set_sharpness(const ControlMesh& mesh, const LoopOptions& options, Sheet<glm::vec3>& surface) {
   if (!mesh.sharp_edges.empty()) surface.edge_sharpness.assign(surface.mesh.edges.size(), 0);
   for (const ControlMesh::SharpEdge& sharp : mesh.sharp_edges) {
     float& sharpness = surface.edge_sharpness[find_edge(surface.mesh, sharp.vertices[0], sharp.vertices[1])];
-    sharpness = std::max(sharpness, sharp.sharpness);
+    sharpness = std::max(sharpness, lasting(sharp.sharpness));
   }
   if (!mesh.sharp_vertices.empty() || options.keep_corners) surface.vertex_sharpness.assign(mesh.positions.size(), 0);
   for (const ControlMesh::SharpVertex& sharp : mesh.sharp_vertices) {
-    surface.vertex_sharpness[sharp.vertex] = std::max(surface.vertex_sharpness[sharp.vertex], sharp.sharpness);
+    surface.vertex_sharpness[sharp.vertex] = std::max(surface.vertex_sharpness[sharp.vertex], lasting(sharp.sharpness));
   }
   if (!options.keep_corners) return;
   for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
@@ -157,11 +162,15 @@ void check_triangle_count(std::size_t coarse_triangles, int levels, const LoopOp
   }
 }
 
-LoopLevel refined_level(const ControlMesh& mesh, int levels, Refine what, const LoopOptions& options) {
+LoopLevel refined_level(const ControlMesh& mesh, int levels, Refine what, const LoopOptions& options,
+                        const AfterStep& after_step) {
   check_triangle_count(mesh.triangles.size(), levels, options);
   LoopLevel level = coarse_level(mesh, options);
   if (mesh.triangles.empty()) return level;
-  for (int i = 1; i <= levels; ++i) level = refined(level, i < levels ? Refine::connectivity : what);
+  for (int step = 1; step <= levels; ++step) {
+    level = refined(level, step < levels ? Refine::connectivity : what);
+    if (after_step) after_step(level, step);
+  }
   return level;
 }
 

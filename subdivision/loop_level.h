@@ -2,6 +2,7 @@
 // A control mesh between two steps of Loop subdivision, ready for the next.
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "subdivision/control_mesh.h"
@@ -28,8 +29,12 @@ LoopLevel refined(const LoopLevel& level, Refine what);
 /// The triangle counts of every level must stay within the limit: throws `LimitError` where `levels` steps would not.
 void check_triangle_count(std::size_t coarse_triangles, int levels, const LoopOptions& options);
 
-/// `levels` steps from a control mesh. Throws as `subdivide` does.
-LoopLevel refined_level(const ControlMesh& mesh, int levels, Refine what, const LoopOptions& options);
+/// What may be done to a level after each step, counted from 1.
+using AfterStep = std::function<void(LoopLevel& level, int step)>;
+
+/// `levels` steps from a control mesh; the last makes `what`. Throws as `subdivide` does.
+LoopLevel refined_level(const ControlMesh& mesh, int levels, Refine what, const LoopOptions& options,
+                        const AfterStep& after_step = {});
 
 ControlMesh to_control_mesh(LoopLevel level);
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -12,9 +11,6 @@ namespace barkridge {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// So many steps leave less of a ring than doubles can tell.
-constexpr double kForEver = 32;
 // A dart's ring is within 0.66^n of its limit after n steps, and as near to flat after half as many.
 constexpr int kDartSteps = 50, kDartNormalSteps = 20;
 
@@ -82,21 +78,13 @@ double share_of_sharper_rule(const Ring<Value>& ring) {
 
 template <class Value>
 bool is_semi_sharp(const Ring<Value>& ring) {
-  const auto finite = [](double sharpness) { return sharpness > 0 && sharpness <= kForEver; };
+  const auto finite = [](double sharpness) { return sharpness > 0 && std::isfinite(sharpness); };
   return finite(ring.center_sharpness) || std::any_of(ring.sharpness.begin(), ring.sharpness.end(), finite);
 }
 
 template <class Value>
 Ring<Value> after_sharpness(Ring<Value> ring) {
-  while (is_semi_sharp(ring)) {
-    ring = refined(std::move(ring));
-    // What counts as infinite stays so.
-    const auto keep = [](double& sharpness) {
-      if (sharpness > kForEver - 1) sharpness = kInfinity;
-    };
-    keep(ring.center_sharpness);
-    for (double& sharpness : ring.sharpness) keep(sharpness);
-  }
+  while (is_semi_sharp(ring)) ring = refined(std::move(ring));
   return ring;
 }
 
@@ -115,15 +103,23 @@ glm::dvec3 unit_or_zero(const glm::dvec3& v) {
   return length > 0 && std::isfinite(length) ? v / length : glm::dvec3(0);
 }
 
-// From the left eigenvectors of the subdominant eigenvalue of a smooth ring [HDD94].
+// Cosine and sine of a turn by the angle between two neighbours of a smooth vertex.
+glm::dvec2 turn_to_next(std::size_t valence) {
+  if (valence == 6) return {0.5, 0.5 * std::numbers::sqrt3};
+  const double angle = 2 * std::numbers::pi / static_cast<double>(valence);
+  return {std::cos(angle), std::sin(angle)};
+}
+
+// From the left eigenvectors of the subdominant eigenvalue of a smooth ring, cosines and sines [HDD94].
 glm::dvec3 smooth_normal(const Ring<glm::dvec3>& ring) {
-  const std::size_t n = ring.neighbours.size();
-  const double angle = 2 * std::numbers::pi / static_cast<double>(n);
+  const glm::dvec2 turn = turn_to_next(ring.neighbours.size());
+  glm::dvec2 weight(1, 0);
   glm::dvec3 u(0), v(0);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double a = angle * static_cast<double>(i);
-    u += std::cos(a) * ring.neighbours[i];
-    v += std::sin(a) * ring.neighbours[i];
+  for (const glm::dvec3& neighbour : ring.neighbours) {
+    const glm::dvec3 side = neighbour - ring.center;  // the weights' sum is 0, and less is lost
+    u += weight.x * side;
+    v += weight.y * side;
+    weight = {weight.x * turn.x - weight.y * turn.y, weight.x * turn.y + weight.y * turn.x};
   }
   return glm::cross(u, v);
 }
@@ -134,19 +130,14 @@ glm::dvec3 smooth_normal(const Ring<glm::dvec3>& ring) {
 // columns of the ring's matrix. (For three triangles this is the well-known 2, 2; -1, -1; -2.) One triangle bends by
 // the crease alone.
 glm::dvec3 side_normal(const Ring<glm::dvec3>& ring, std::size_t first, std::size_t count) {
-  const auto at = [&](std::size_t i) { return ring.neighbours[(first + i) % ring.neighbours.size()]; };
-  const glm::dvec3 along = at(0) - at(count);
-  if (count == 1) return glm::cross(along, at(0) + at(1) - 2.0 * ring.center);
+  // Weights' sums are 0, so sides may stand for neighbours, and 0 for the vertex.
+  const auto side = [&](std::size_t i) { return ring.neighbours[(first + i) % ring.neighbours.size()] - ring.center; };
+  const glm::dvec3 along = side(0) - side(count);
+  if (count == 1) return glm::cross(along, side(0) + side(1));
   const double angle = std::numbers::pi / static_cast<double>(count), c = std::cos(angle), s = std::sin(angle);
-  const double ends = -s * c / ((1 - c) * (1 + 2 * c));
-  glm::dvec3 across = ends * (at(0) + at(count));
-  double total = 2 * ends;
-  for (std::size_t i = 1; i < count; ++i) {
-    const double weight = std::sin(angle * static_cast<double>(i));
-    across += weight * at(i);
-    total += weight;
-  }
-  return glm::cross(along, across - total * ring.center);
+  glm::dvec3 across = -s * c / ((1 - c) * (1 + 2 * c)) * (side(0) + side(count));
+  for (std::size_t i = 1; i < count; ++i) across += std::sin(angle * static_cast<double>(i)) * side(i);
+  return glm::cross(along, across);
 }
 
 glm::dvec3 crease_normal(const Ring<glm::dvec3>& ring, const Kind& kind) {
@@ -160,6 +151,15 @@ template <class Value>
 Ring<Value> refined_often(Ring<Value> ring, int steps) {
   for (int i = 0; i < steps; ++i) ring = refined(std::move(ring));
   return ring;
+}
+
+// Of a ring that is not semi-sharp; 0 at corners and where the surface has none.
+glm::dvec3 sharp_limit_normal(const Ring<glm::dvec3>& ring) {
+  const Kind kind = kind_of(ring, 0);
+  if (kind.rule == Rule::corner) return glm::dvec3(0);
+  if (kind.rule == Rule::crease) return crease_normal(ring, kind);
+  if (kind.sharp_edges == 0) return smooth_normal(ring);
+  return mean_normal(refined_often(ring, kDartNormalSteps));
 }
 
 }  // namespace
@@ -202,43 +202,32 @@ Ring<Value> refined(Ring<Value> ring) {
 }
 
 template <class Value>
-Value limit_position(Ring<Value> ring) {
-  if (is_semi_sharp(ring)) ring = after_sharpness(std::move(ring));
+Value limit_position(const Ring<Value>& ring) {
+  if (is_semi_sharp(ring)) return limit_position(after_sharpness(ring));
   const Kind kind = kind_of(ring, 0);
   if (kind.rule == Rule::corner) return ring.center;
   if (kind.rule == Rule::crease) {
     return (4.0 * ring.center + ring.neighbours[kind.crease[0]] + ring.neighbours[kind.crease[1]]) / 6.0;
   }
-  if (kind.sharp_edges == 1) return refined_often(std::move(ring), kDartSteps).center;
+  if (kind.sharp_edges == 1) return refined_often(ring, kDartSteps).center;
   const auto valence = static_cast<double>(ring.neighbours.size());
   const double weight = 1 / (valence + 3 / (8 * neighbour_weight(ring.neighbours.size())));
   return (1 - valence * weight) * ring.center + weight * sum(ring.neighbours);
 }
 
-glm::dvec3 limit_normal(Ring<glm::dvec3> ring) {
-  const glm::dvec3 mean = mean_normal(ring);
-  if (is_semi_sharp(ring)) ring = after_sharpness(std::move(ring));
-  const Kind kind = kind_of(ring, 0);
-  glm::dvec3 normal(0);
-  if (kind.rule == Rule::crease) {
-    normal = crease_normal(ring, kind);
-  } else if (kind.rule == Rule::smooth && kind.sharp_edges == 0) {
-    normal = smooth_normal(ring);
-  } else if (kind.rule == Rule::smooth) {
-    normal = mean_normal(refined_often(std::move(ring), kDartNormalSteps));
-  }
-  for (const glm::dvec3& candidate : {normal, mean, glm::dvec3(0, 1, 0)}) {
-    const glm::dvec3 unit = unit_or_zero(candidate);
-    if (unit != glm::dvec3(0)) return unit;
-  }
-  return {};
+glm::dvec3 limit_normal(const Ring<glm::dvec3>& ring) {
+  const glm::dvec3 normal =
+      unit_or_zero(is_semi_sharp(ring) ? sharp_limit_normal(after_sharpness(ring)) : sharp_limit_normal(ring));
+  if (normal != glm::dvec3(0)) return normal;
+  const glm::dvec3 mean = unit_or_zero(mean_normal(ring));
+  return mean != glm::dvec3(0) ? mean : glm::dvec3(0, 1, 0);
 }
 
 template glm::dvec2 refined_center(const Ring<glm::dvec2>&);
 template glm::dvec3 refined_center(const Ring<glm::dvec3>&);
 template Ring<glm::dvec2> refined(Ring<glm::dvec2>);
 template Ring<glm::dvec3> refined(Ring<glm::dvec3>);
-template glm::dvec2 limit_position(Ring<glm::dvec2>);
-template glm::dvec3 limit_position(Ring<glm::dvec3>);
+template glm::dvec2 limit_position(const Ring<glm::dvec2>&);
+template glm::dvec3 limit_position(const Ring<glm::dvec3>&);
 
 }  // namespace barkridge

@@ -46,11 +46,11 @@ Ring<Value> refined(Ring<Value> ring);
 /// is left, and darts, for which there is no closed mask, until they have converged: exact to 1e-9 of the ring's size
 /// in both cases. Finite sharpnesses above 32 count as infinite.
 template <class Value>
-Value limit_position(Ring<Value> ring);
+Value limit_position(const Ring<Value>& ring);
 
 /// The surface's unit normal at the limit of the vertex. At creases it is the mean of both sides' normals, at corners
 /// that of the triangles', weighted by area; where that vanishes too, (0, 1, 0). On a boundary or beside a crease where
 /// seven or more triangles meet the surface has no tangent plane; the normal is that of the tangents along and across.
-glm::dvec3 limit_normal(Ring<glm::dvec3> ring);
+glm::dvec3 limit_normal(const Ring<glm::dvec3>& ring);
 
 }  // namespace barkridge

@@ -1,13 +1,12 @@
 #include "subdivision/sheet.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <array>
 #include <limits>
 
 #include "base/large_room.h"
+#include "subdivision/ring.h"
 
 namespace barkridge {
 
@@ -109,24 +108,22 @@ Sheet<Value> refined(const Sheet<Value>& sheet, Refine what) {
   return fine;
 }
 
-template <class Value>
-Value limit_value(const Sheet<Value>& sheet, std::uint32_t vertex) {
-  Ring<Double<Value>>& ring = scratch_ring<Value>();
-  gather(sheet, vertex, ring);
-  if (ring.neighbours.empty() || (!ring.closed && sheet.border == Border::linear)) return sheet.values[vertex];
-  return Value(limit_position(ring));
+LimitPoint limit_point(const Sheet<glm::vec3>& surface, std::uint32_t vertex) {
+  Ring<glm::dvec3>& ring = scratch_ring<glm::vec3>();
+  gather(surface, vertex, ring);
+  LimitPoint point;
+  point.position = surface.values[vertex];
+  if (ring.neighbours.empty()) return point;
+  return {glm::vec3(limit_position(ring)), glm::vec3(limit_normal(ring))};
 }
 
-glm::vec3 limit_normal(const Sheet<glm::vec3>& sheet, std::uint32_t vertex) {
-  Ring<glm::dvec3>& ring = scratch_ring<glm::vec3>();
-  gather(sheet, vertex, ring);
-  if (ring.neighbours.empty()) return {0, 1, 0};
-  return glm::vec3(limit_normal(ring));
+glm::vec2 limit_texture(const Sheet<glm::vec2>& charts, std::uint32_t vertex) {
+  Ring<glm::dvec2>& ring = scratch_ring<glm::vec2>();
+  gather(charts, vertex, ring);
+  return ring.closed ? glm::vec2(limit_position(ring)) : charts.values[vertex];
 }
 
 template Sheet<glm::vec2> refined(const Sheet<glm::vec2>&, Refine);
 template Sheet<glm::vec3> refined(const Sheet<glm::vec3>&, Refine);
-template glm::vec2 limit_value(const Sheet<glm::vec2>&, std::uint32_t);
-template glm::vec3 limit_value(const Sheet<glm::vec3>&, std::uint32_t);
 
 }  // namespace barkridge

@@ -9,7 +9,6 @@
 #include <glm/vec3.hpp>
 
 #include "subdivision/half_edges.h"
-#include "subdivision/ring.h"
 
 namespace barkridge {
 
@@ -34,15 +33,20 @@ struct Sheet {
 
 /// One step of Loop subdivision: connectivity as of `refined(const HalfEdges&)`; values by the masks of [Loop87];
 /// creases and corners, sharp for ever or for some steps, by those of [HDD94] and [DKT98] (subdivision/ring.h).
-/// Vertices without triangles stay. Parallel, about 10 ns a triangle of the result.
+/// Vertices without triangles stay. Parallel, O(n).
 template <class Value>
 Sheet<Value> refined(const Sheet<Value>& sheet, Refine what);
 
-/// The limit of a vertex; a vertex without triangles and one on a linear border stay where they are.
-template <class Value>
-Value limit_value(const Sheet<Value>& sheet, std::uint32_t vertex);
+/// A vertex at its limit, with the surface's unit normal there (subdivision/ring.h).
+struct LimitPoint {
+  glm::vec3 position{0};
+  glm::vec3 normal{0, 1, 0};
+};
 
-/// The surface's unit normal at the limit of a vertex, as `limit_normal` of its ring; (0, 1, 0) without triangles.
-glm::vec3 limit_normal(const Sheet<glm::vec3>& sheet, std::uint32_t vertex);
+/// The limit of a vertex; one without triangles stays where it is.
+LimitPoint limit_point(const Sheet<glm::vec3>& surface, std::uint32_t vertex);
+
+/// Texture coordinates at their limit; those on a border stay.
+glm::vec2 limit_texture(const Sheet<glm::vec2>& charts, std::uint32_t vertex);
 
 }  // namespace barkridge
