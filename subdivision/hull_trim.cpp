@@ -23,9 +23,13 @@ double least_share(const HullBranch& branch) {
 // The first branch's share of the angle `theta` to the second.
 double share(const HullBranch& a, const HullBranch& b, double theta) {
   if (theta >= 2 * kWidestShare) return theta / 2;  // both have all that they can use
-  double wanted = std::atan2(a.radius * std::sin(theta), b.radius + a.radius * std::cos(theta));
-  const double least = least_share(a), most = theta - least_share(b);
-  if (least <= most) wanted = std::clamp(wanted, least, most);  // otherwise one of them will have to go
+  const double touching = std::atan2(a.radius * std::sin(theta), b.radius + a.radius * std::cos(theta));
+  double least = least_share(a), most = theta - least_share(b);
+  // A thinner branch would begin below the other's surface.
+  if (a.radius < b.radius) least = std::min(least, touching);
+  if (b.radius < a.radius) most = std::max(most, touching);
+  // Without room for both, one of them will have to go.
+  const double wanted = least <= most ? std::clamp(touching, least, most) : touching;
   return std::clamp(wanted, std::max(theta - kWidestShare, 0.0), std::min(theta, kWidestShare));
 }
 
