@@ -19,7 +19,7 @@ using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
 
 // Pairs of triangles that meet in more than what they share.
 struct Intersections {
-  std::size_t near = 0;  ///< of one internode, of parent and child or of siblings
+  std::size_t near = 0;  ///< of internodes that all meet in one point, or of one
   std::size_t far = 0;   ///< of limbs that cross
 };
 
@@ -43,10 +43,10 @@ Intersections intersections(const Skeleton& skeleton) {
   if (pairs.empty()) CHECK(CGAL::Polygon_mesh_processing::is_outward_oriented(surface));
   Intersections found;
   for (const auto& [first, second] : pairs) {
-    bool near = false;
+    bool near = true;
     for (const std::uint32_t a : mesh.triangles[first]) {
       for (const std::uint32_t b : mesh.triangles[second]) {
-        near = near || are_related(skeleton, mesh.internodes[a], mesh.internodes[b]);
+        near = near && are_related(skeleton, mesh.internodes[a], mesh.internodes[b]);
       }
     }
     ++(near ? found.near : found.far);
