@@ -107,7 +107,8 @@ void add_verbs(CLI::App& app, Written& written) {
   CLI::App& mesh = add_verb(app, written, "mesh", "Makes a closed, manifold triangle mesh of the surface.",
                             "Example: barkridge mesh poplar.toml -o poplar.ply --cell-size 0.01");
   add_output_options(mesh, written,
-                     "The mesh; its extension, .ply, .obj, .stl, .inc or .pov (POV-Ray), says the format. It appears whole or not at all. "
+                     "The mesh; its extension, .ply, .obj, .stl, .inc or .pov (POV-Ray), says the format. It appears "
+                     "whole or not at all. "
                      "May be given more than once");
   add(mesh, "--cell-size", written.cell_size, "H",
       "Edge length of the sampling cells in scene units (mesh.cell_size); by default half the thinnest branch's "

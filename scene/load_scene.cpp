@@ -54,8 +54,11 @@ std::string read_input(const std::string& path, const SourceLocation& named_at, 
 
 // The settings of a file of any kind: one that is no scene file is a scene that names it.
 std::vector<Setting> settings_of_file(const std::string& path) {
-  static const std::map<std::string, std::string> kModelKeys = {
-      {".l", "model.lsystem"}, {".str", "model.string"}, {".lstring", "model.string"}, {".skel", "model.skeleton"}, {".lst", "model.lst"}};
+  static const std::map<std::string, std::string> kModelKeys = {{".l", "model.lsystem"},
+                                                                {".str", "model.string"},
+                                                                {".lstring", "model.string"},
+                                                                {".skel", "model.skeleton"},
+                                                                {".lst", "model.lst"}};
   const std::string extension = fs::path(path).extension().string();
   if (extension == ".toml") return read_settings(read_input(path, {}, kMaxSceneBytes), path);
   const auto found = kModelKeys.find(extension);

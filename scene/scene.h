@@ -86,10 +86,10 @@ struct Override {
 Override parse_override(const std::string& definition);
 
 /// Reads a scene file (.toml), or an L-system (.l), a cpfg string (.str, .lstring), a skeleton table (.skel) or an
-/// LST file (.lst) as a scene with the default look. Overrides replace what the file says; later ones win. The model's text is read too, but
-/// not parsed. Paths in a scene file are relative to it, paths in overrides to the working directory. Throws
-/// `InputError` with place for a file that cannot be read, for unknown keys, and for values of the wrong type, out of
-/// range or not finite.
+/// LST file (.lst) as a scene with the default look. Overrides replace what the file says; later ones win. The model's
+/// text is read too, but not parsed. Paths in a scene file are relative to it, paths in overrides to the working
+/// directory. Throws `InputError` with place for a file that cannot be read, for unknown keys, and for values of the
+/// wrong type, out of range or not finite.
 Scene load_scene(const std::string& path, std::span<const Override> overrides = {});
 
 }  // namespace barkridge

@@ -256,7 +256,8 @@ TEST_CASE("the extension chooses the format, in any case") {
   CHECK(mesh_format("a/b.PLY") == MeshFormat::ply);
   CHECK(mesh_format("b.x.Obj") == MeshFormat::obj);
   CHECK(mesh_format("b.stl") == MeshFormat::stl);
-  CHECK_THROWS_WITH(mesh_format("tree.gltf"), Catch::Contains(".gltf") && Catch::Contains(".obj, .ply, .stl, .inc or .pov"));
+  CHECK_THROWS_WITH(mesh_format("tree.gltf"),
+                    Catch::Contains(".gltf") && Catch::Contains(".obj, .ply, .stl, .inc or .pov"));
   CHECK_THROWS_AS(mesh_format("ply"), InputError);
   CHECK_THROWS_AS(write_mesh({}, "/tmp/a.txt"), InputError);
 }
