@@ -16,8 +16,8 @@ namespace barkridge::cli {
 namespace {
 
 constexpr const char* kSceneHelp =
-    "A scene file (.toml), or directly an L-system (.l), a cpfg string (.str, .lstring) or a skeleton table (.skel), "
-    "which then has the default look";
+    "A scene file (.toml), or directly an L-system (.l), a cpfg string (.str, .lstring), a skeleton table (.skel) "
+    "or an LST file (.lst), which then has the default look";
 
 constexpr const char* kExitHelp =
     "Exit status: 0 done; 1 failure (disk full, target not writable, out of memory); 2 bad usage or input; "
@@ -120,8 +120,8 @@ void add_verbs(CLI::App& app, Written& written) {
   CLI::App& mesh = add_verb(app, written, "mesh", "Makes a triangle mesh of the surface, closed and manifold.",
                             "Example: barkridge mesh poplar.toml -o poplar.ply --cell-size 0.01");
   add_output_options(mesh, written,
-                     "The mesh; its extension, .ply, .obj or .stl, says the format. It appears whole or not at all. "
-                     "May be given more than once",
+                     "The mesh; its extension, .ply, .obj, .stl, .inc or .pov (POV-Ray), says the format. It appears "
+                     "whole or not at all. May be given more than once",
                      false);
   add_surface_options(mesh, written);
   add(mesh, "--statistics", written.statistics, "FILE",

@@ -58,7 +58,7 @@ void write_povray_scene(const Mesh& mesh, OutputFile& file) {
   for (const glm::vec3& p : mesh.positions) bounds = unite(bounds, Vec3(p));
   const Vec3 middle = bounds.empty() ? Vec3(0) : bounds.center();
   // The ball about the box fills the 35 degrees of the picture's shorter side.
-  const double distance = 1.67 * std::max(bounds.diagonal(), 1e-6);
+  const double distance = bounds.empty() ? 1 : 1.67 * bounds.diagonal();
   const Vec3 eye = middle + distance * glm::normalize(Vec3(-0.42, 0.14, 0.9));
   file.write(fmt::format(R"(
 global_settings {{ assumed_gamma 1.0 }}

@@ -25,7 +25,7 @@ struct Exclusion {
 };
 const std::vector<Exclusion>& exclusions() {
   static const std::vector<Exclusion> table = {
-      {{"model.lsystem", "model.lsystem_text", "model.string", "model.skeleton", "model.tree"}, {}},
+      {{"model.lsystem", "model.lsystem_text", "model.string", "model.skeleton", "model.lst", "model.tree"}, {}},
       {{"sun.direction"}, {"sun.azimuth_degrees", "sun.elevation_degrees"}},
       {{"camera.position"}, {"camera.azimuth_degrees", "camera.elevation_degrees", "camera.zoom"}},
   };
@@ -54,15 +54,18 @@ std::string read_input(const std::string& path, const SourceLocation& named_at, 
 
 // The settings of a file of any kind: one that is no scene file is a scene that names it.
 std::vector<Setting> settings_of_file(const std::string& path) {
-  static const std::map<std::string, std::string> kModelKeys = {
-      {".l", "model.lsystem"}, {".str", "model.string"}, {".lstring", "model.string"}, {".skel", "model.skeleton"}};
+  static const std::map<std::string, std::string> kModelKeys = {{".l", "model.lsystem"},
+                                                                {".str", "model.string"},
+                                                                {".lstring", "model.string"},
+                                                                {".skel", "model.skeleton"},
+                                                                {".lst", "model.lst"}};
   const std::string extension = fs::path(path).extension().string();
   if (extension == ".toml") return read_settings(read_input(path, {}, kMaxSceneBytes), path);
   const auto found = kModelKeys.find(extension);
   if (found == kModelKeys.end()) {
     throw InputError(
         fmt::format("{}: expected a file that ends in .toml (scene), .l (L-system), .str or .lstring (cpfg string) "
-                    "or .skel (skeleton table)",
+                    ".skel (skeleton table) or .lst (TreeDraw's list)",
                     path));
   }
   Setting setting;

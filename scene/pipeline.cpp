@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/version.h"
+#include "lsystem/lst.h"
 #include "mesh/write.h"
 #include "raytrace/image_file.h"
 #include "scene/camera_fit.h"
@@ -69,6 +70,7 @@ Skeleton make_skeleton(const Scene& scene, const Listener& listener) {
     throw InputError({scene.model.file, 0, 0, ""},
                      "expected a model with a skeleton; this one is a tree written by hand");
   }
+  if (scene.model.kind == ModelSource::Kind::kLst) return read_lst(scene.model.text, scene.model.file);
   return read_skeleton_table(scene.model.text, scene.model.file);
 }
 

@@ -21,6 +21,7 @@ struct ModelSource {
     kLsystem,   ///< an L-system in cpfg's language
     kString,    ///< a string of modules in cpfg's text form
     kSkeleton,  ///< a skeleton table
+    kLst,       ///< a skeleton as a list of operations (lsystem/lst.h)
     kTree,      ///< a BlobTree in its text form
   };
   Kind kind = Kind::kTree;
@@ -102,11 +103,11 @@ struct Override {
 /// Splits `key=value`. Throws `InputError` when there is no key or no `=`.
 Override parse_override(const std::string& definition);
 
-/// Reads a scene file (.toml), or an L-system (.l), a cpfg string (.str, .lstring) or a skeleton table (.skel) as a
-/// scene with the default look. Overrides replace what the file says; later ones win. The model's text is read too, but
-/// not parsed. Paths in a scene file are relative to it, paths in overrides to the working directory. Throws
-/// `InputError` with place for a file that cannot be read, for unknown keys, and for values of the wrong type, out of
-/// range or not finite.
+/// Reads a scene file (.toml), or an L-system (.l), a cpfg string (.str, .lstring), a skeleton table (.skel) or an
+/// LST file (.lst) as a scene with the default look. Overrides replace what the file says; later ones win. The model's
+/// text is read too, but not parsed. Paths in a scene file are relative to it, paths in overrides to the working
+/// directory. Throws `InputError` with place for a file that cannot be read, for unknown keys, and for values of the
+/// wrong type, out of range or not finite.
 Scene load_scene(const std::string& path, std::span<const Override> overrides = {});
 
 }  // namespace barkridge

@@ -237,6 +237,8 @@ void add_model_keys(Keys& keys) {
                        "Draws the model from a string of modules in a file."));
   keys.push_back(model("model.skeleton", "the path of a skeleton table (.skel)", Kind::kSkeleton,
                        "Takes the model's skeleton from a file."));
+  keys.push_back(model("model.lst", "the path of an LST file (.lst)", Kind::kLst,
+                       "Takes the model's skeleton from a file that lists operations, in TreeDraw's format."));
   keys.push_back(model("model.tree", "a BlobTree as text", Kind::kTree,
                        "The model itself, written by hand in the BlobTree's text form."));
 }

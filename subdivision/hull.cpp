@@ -134,7 +134,7 @@ class Surface {
           tip_trim(i).end == HullEnd::kFree && tube.end_radius <= std::max(finest_, kPointedRatio * tube.start_radius);
       tube.tip_cap = tip_trim(i).end == HullEnd::kFree && !tube.pointed;
       const double radius = (tube.start_radius + tube.end_radius) / 2;
-      // [Pieterse, section 4.3.2]: two segments are about as long as the branch is around.
+      // [Pie12, section 4.3.2]: two segments are about as long as the branch is around.
       const double segments = std::round((tube.end - tube.start) / (std::numbers::pi * radius));
       tube.segments = static_cast<int>(std::clamp(segments, 1.0, double(options_.max_segments)));
       tube.v_per_length = 1 / (kTurn * radius);

@@ -10,7 +10,7 @@ namespace barkridge {
 
 struct HullOptions {
   /// Vertices of a ring around a branch, 3 to 64. Four is the best trade of coarseness against the shrinking of
-  /// refinement. [Pieterse, section 4.2.2]
+  /// refinement. [Pie12, section 4.2.2]
   int ring_vertices = 4;
   /// Most rings along an internode; more would be needed only where it is over 3 times as long as thick.
   int max_segments = 64;
@@ -22,7 +22,7 @@ struct HullOptions {
 };
 
 /// Dresses a skeleton: rings around its internodes, and between the rings of branches that meet the convex hull of the
-/// rings' vertices on a sphere about the meeting point. [Pieterse, section 4.2; Hijazi et al.]
+/// rings' vertices on a sphere about the meeting point. [Pie12, section 4.2; HBC10]
 ///
 /// The result is closed, 2-manifold and oriented, of genus 0 a plant: a plant is what is connected, from base to tip or
 /// by a common base of several roots. An internode that begins anywhere but at its parent's tip begins a plant of its

@@ -211,9 +211,19 @@ class Builder {
 }  // namespace
 
 double ring_scale(const HullGraph& graph, std::size_t branch) {
-  const double needed = graph.base_trims[branch].offset + graph.tip_trims[branch].offset;
+  const HullTrim &base = graph.base_trims[branch], &tip = graph.tip_trims[branch];
   const double length = glm::distance(graph.positions[branch], graph.positions[graph.up[branch]]);
-  return needed <= kTrimmedPart * length ? 1 : kTrimmedPart * length / needed;
+  double scale = std::min(1.0, kTrimmedPart * length / (base.offset + tip.offset));
+  // A ring of radius `r` at `offset` from one end lies in the cone about the other end if
+  // `scale r <= (length - scale offset) tan(angle)`.
+  const auto keep_to_cone = [&](double radius, double offset, double angle) {
+    scale = std::min(scale, length * std::tan(angle) / (radius + offset * std::tan(angle)));
+  };
+  if (base.end == HullEnd::kJoint && tip.end == HullEnd::kJoint) {
+    keep_to_cone(graph.base_radii[branch], base.offset, tip.angle);
+    keep_to_cone(graph.tip_radii[branch], tip.offset, base.angle);
+  }
+  return scale;
 }
 
 double finest_length(const Skeleton& skeleton) {

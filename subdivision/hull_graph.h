@@ -38,8 +38,8 @@ struct HullGraph {
   bool is_base(std::size_t node) const { return node >= up.size(); }
 };
 
-/// The part of its trimmed size that a branch's rings keep so that both lie on it, in (0, 1]; below 0 for a branch too
-/// short to have a direction.
+/// The part of its trimmed size that a branch's rings keep so that both lie on it, each within the other end's cone;
+/// from 0, where a cone has no angle, to 1.
 double ring_scale(const HullGraph& graph, std::size_t branch);
 
 /// The least length that means anything: a few steps of single precision at the skeleton's largest coordinate.

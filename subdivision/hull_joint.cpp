@@ -26,7 +26,7 @@ std::FILE* nowhere() {
   return file.get();
 }
 
-// One run of Qhull, its memory freed at the end.
+// One run of Qhull [BDH96], its memory freed at the end.
 class Qhull {
  public:
   // `Qt`: facets with more than three vertices, as of symmetrical whorls, are cut into triangles.

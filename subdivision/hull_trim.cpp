@@ -9,24 +9,27 @@ namespace {
 
 // The part of a share of an angle that a cone leaves free, of the smaller share.
 constexpr double kMargin = 0.2;
-// No cone needs more: less than this minus its margin is the widest.
-constexpr double kWidestShare = 1.05 * kWidestHullCone;
+// Beyond a right angle from a branch's axis is only the flat end of its cylinder, which others may come near to.
+constexpr double kMostShare = std::numbers::pi / 2;
 
 // Exact also for angles near 0 and pi.
 double angle_between(const Vec3& a, const Vec3& b) { return 2 * std::atan2(glm::length(a - b), glm::length(a + b)); }
 
 // The share of their angle without which a branch's ring does not fit into its room.
 double least_share(const HullBranch& branch) {
-  return std::min(std::atan2(branch.radius, branch.room) / (1 - kMargin), kWidestShare);
+  return std::min(std::atan2(branch.radius, branch.room) / (1 - kMargin), kMostShare);
 }
 
 // The first branch's share of the angle `theta` to the second.
 double share(const HullBranch& a, const HullBranch& b, double theta) {
-  if (theta >= 2 * kWidestShare) return theta / 2;  // both have all that they can use
-  double wanted = std::atan2(a.radius * std::sin(theta), b.radius + a.radius * std::cos(theta));
-  const double least = least_share(a), most = theta - least_share(b);
-  if (least <= most) wanted = std::clamp(wanted, least, most);  // otherwise one of them will have to go
-  return std::clamp(wanted, std::max(theta - kWidestShare, 0.0), std::min(theta, kWidestShare));
+  const double touching = std::atan2(a.radius * std::sin(theta), b.radius + a.radius * std::cos(theta));
+  double least = least_share(a), most = theta - least_share(b);
+  // A thinner branch would begin below the other's surface.
+  if (a.radius < b.radius) least = std::min(least, touching);
+  if (b.radius < a.radius) most = std::max(most, touching);
+  // Without room for both, one of them will have to go.
+  const double wanted = least <= most ? std::clamp(touching, least, most) : touching;
+  return std::clamp(wanted, std::max(theta - kMostShare, 0.0), std::min(theta, kMostShare));
 }
 
 }  // namespace

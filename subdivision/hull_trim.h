@@ -25,9 +25,10 @@ struct HullCone {
 inline constexpr double kWidestHullCone = 1.3089969389957472;
 
 /// Cones that do not overlap. Two cylinders' silhouettes touch where their axes' angle divides as
-/// `tan a1 = r1 sin(t) / (r2 + r1 cos(t))` [MacMurchy, equations 5.1 and 5.2, as angles]; a branch that would get no
-/// ring into its room so gets more of the angle where the other can spare it. A margin in proportion to the smaller
-/// share lies between them. Branches in one direction get cones of angle 0. Quadratic in the number of branches.
+/// `tan a1 = r1 sin(t) / (r2 + r1 cos(t))` [Mac04, equations 5.1 and 5.2, as angles]; a branch that would get no
+/// ring into its room so gets more of the angle where the other, if not thicker, can spare it. No share is more than a
+/// right angle. A margin in proportion to the smaller share lies between them. Branches in one direction get cones of
+/// angle 0. Quadratic in the number of branches.
 std::vector<HullCone> hull_cones(std::span<const HullBranch> branches);
 
 }  // namespace barkridge

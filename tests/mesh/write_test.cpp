@@ -256,7 +256,8 @@ TEST_CASE("the extension chooses the format, in any case") {
   CHECK(mesh_format("a/b.PLY") == MeshFormat::ply);
   CHECK(mesh_format("b.x.Obj") == MeshFormat::obj);
   CHECK(mesh_format("b.stl") == MeshFormat::stl);
-  CHECK_THROWS_WITH(mesh_format("tree.gltf"), Catch::Contains(".gltf") && Catch::Contains(".obj, .ply or .stl"));
+  CHECK_THROWS_WITH(mesh_format("tree.gltf"),
+                    Catch::Contains(".gltf") && Catch::Contains(".obj, .ply, .stl, .inc or .pov"));
   CHECK_THROWS_AS(mesh_format("ply"), InputError);
   CHECK_THROWS_AS(write_mesh({}, "/tmp/a.txt"), InputError);
 }
@@ -266,7 +267,7 @@ TEST_CASE("a full disk is reported and leaves the old mesh") {
   Mesh mesh;
   mesh.positions.resize(200000, glm::vec3(1.0f / 3));
   mesh.triangles.resize(200000);
-  for (const std::string name : {"a.obj", "a.ply", "a.stl"}) {
+  for (const std::string name : {"a.obj", "a.ply", "a.stl", "a.inc"}) {
     write_mesh({}, folder.path(name));
     const std::string before = read_file(folder.path(name));
     {
@@ -275,5 +276,5 @@ TEST_CASE("a full disk is reported and leaves the old mesh") {
     }
     CHECK(read_file(folder.path(name)) == before);
   }
-  CHECK(folder.entries() == 3);
+  CHECK(folder.entries() == 4);
 }

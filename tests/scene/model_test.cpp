@@ -24,6 +24,18 @@ const char* const kFork =
 
 }  // namespace
 
+TEST_CASE("an LST file is a model, named by a scene or by itself") {
+  const ScratchFolder folder;
+  const std::string path =
+      folder.write("a.lst", "LST 0.1\nCylinder(0.5, 0.4, 3)\nMovRel3f(0, 3, 0)\nCylinder(0.4, 0.2, 1)\n");
+  for (const std::string& scene : {path, folder.write("a.toml", "model.lst = 'a.lst'\n")}) {
+    const Skeleton skeleton = make_skeleton(load_scene(scene));
+    REQUIRE(skeleton.internodes.size() == 2);
+    CHECK(skeleton.internodes[1].tip == Vec3(0, 4, 0));
+    CHECK(skeleton.internodes[1].parent == 0);
+  }
+}
+
 TEST_CASE("a mistake in a text within a scene is reported on the scene's line") {
   const ScratchFolder folder;
   const auto where_of = [&](const std::string& text) {

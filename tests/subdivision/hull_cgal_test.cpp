@@ -1,0 +1,104 @@
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <catch2/catch.hpp>
+
+#include "subdivision/hull.h"
+#include "tests/support/skeletons.h"
+#include "tests/support/wild_skeleton.h"
+
+using namespace barkridge;
+using namespace barkridge::test;
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
+
+// Pairs of triangles that meet in more than what they share.
+struct Intersections {
+  std::size_t near = 0;  ///< of internodes that all meet in one point, or of one
+  std::size_t far = 0;   ///< of limbs that cross
+};
+
+bool are_related(const Skeleton& skeleton, InternodeId a, InternodeId b) {
+  const InternodeId up_a = skeleton.internodes[static_cast<std::size_t>(a)].parent;
+  const InternodeId up_b = skeleton.internodes[static_cast<std::size_t>(b)].parent;
+  return a == b || a == up_b || b == up_a || up_a == up_b;
+}
+
+Intersections intersections(const Skeleton& skeleton) {
+  const ControlMesh mesh = hull_mesh(skeleton);
+  Surface surface;
+  std::vector<Surface::Vertex_index> vertices;
+  for (const glm::vec3& p : mesh.positions) vertices.push_back(surface.add_vertex({p.x, p.y, p.z}));
+  for (const auto& t : mesh.triangles) {
+    REQUIRE(surface.add_face(vertices[t[0]], vertices[t[1]], vertices[t[2]]) != Surface::null_face());
+  }
+  REQUIRE(CGAL::is_closed(surface));
+  std::vector<std::pair<Surface::Face_index, Surface::Face_index>> pairs;
+  CGAL::Polygon_mesh_processing::self_intersections(surface, std::back_inserter(pairs));
+  if (pairs.empty()) CHECK(CGAL::Polygon_mesh_processing::is_outward_oriented(surface));
+  Intersections found;
+  for (const auto& [first, second] : pairs) {
+    bool near = true;
+    for (const std::uint32_t a : mesh.triangles[first]) {
+      for (const std::uint32_t b : mesh.triangles[second]) {
+        near = near && are_related(skeleton, mesh.internodes[a], mesh.internodes[b]);
+      }
+    }
+    ++(near ? found.near : found.far);
+  }
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("CGAL finds no self-intersection in whorls, forks, or trunks with thin branches close to each other") {
+  const auto check_none = [](const Skeleton& skeleton) {
+    const Intersections found = intersections(skeleton);
+    CHECK(found.near + found.far == 0);
+  };
+  for (const int count : {2, 3, 6, 8, 12}) {
+    for (const double angle : {25.0, 60.0, 100.0}) check_none(fork(count, angle));
+  }
+  for (const double distance : {0.3, 0.6, 1.0, 3.0}) {
+    Skeleton trunk = chain(distance, 10 * distance, 0);
+    const auto count = static_cast<InternodeId>(trunk.internodes.size());
+    for (InternodeId i = 0; i + 1 < count; ++i) {
+      const Vec3 base = trunk.internodes[static_cast<std::size_t>(i)].tip;
+      const double turn = i * 137.5 * kDegree;
+      trunk.internodes.push_back({base, base + Vec3(4 * std::cos(turn), 2, 4 * std::sin(turn)), 0.1, 0.05, i, 1});
+    }
+    check_none(trunk);
+  }
+}
+
+TEST_CASE("CGAL finds that in random trees only limbs that cross intersect") {
+  std::size_t clean = 0, far = 0;
+  constexpr int kTrees = 60;
+  for (std::uint64_t seed = 0; seed < kTrees; ++seed) {
+    INFO("seed " << seed);
+    const Intersections found = intersections(random_skeleton(seed, 1 + static_cast<int>(seed)));
+    CHECK(found.near == 0);
+    far += found.far;
+    clean += found.far == 0;
+  }
+  WARN(clean << " of " << kTrees << " random trees do not intersect themselves; limbs that cross give the others "
+             << far << " pairs of triangles");
+  CHECK(clean > kTrees / 2);
+}
+
+TEST_CASE("CGAL finds that even in skeletons that no plant has no joint intersects itself") {
+  std::size_t far = 0;
+  constexpr int kSkeletons = 60;
+  for (std::uint64_t seed = 0; seed < kSkeletons; ++seed) {
+    INFO("seed " << seed);
+    const Intersections found = intersections(wild_skeleton(seed));
+    CHECK(found.near == 0);
+    far += found.far;
+  }
+  WARN("limbs that cross in " << kSkeletons << " wild skeletons give " << far << " pairs of triangles");
+}
