@@ -57,7 +57,7 @@ std::string footer(const std::string& text) { return wrapped(text + '\n' + kExit
 
 // The options of a verb as the user wrote them, before they mean anything.
 struct Written {
-  std::string scene, size, region, points, steps, seed, samples, cell_size, max_modules, max_memory;
+  std::string scene, size, region, frames, points, steps, seed, samples, cell_size, max_modules, max_memory;
   std::vector<std::string> definitions, outputs;
   int threads = 0;
   bool quiet = false, json = false;
@@ -86,6 +86,11 @@ CLI::App& add_verb(CLI::App& app, Written& written, const char* name, const char
 }
 
 void add_output_options(CLI::App& verb, Written& written, const char* output_text) {
+  add(verb, "--frames", written.frames, "A-B[:STEP]",
+      "Makes the growing plant at several times: frame k at k times growth.steps_per_frame derivation steps. Its "
+      "number "
+      "stands in the output's name instead of #### or %04d. A frame is the same whether it is made alone (--frames 17) "
+      "or among others");
   add(verb, "-o,--output", written.outputs, "FILE", output_text)->required()->allow_extra_args(false);
   add(verb, "-t,--threads", written.threads, "N",
       "Threads to use; 0, the default, means all. The result is the same for any number")
@@ -155,10 +160,19 @@ void interpret_scene_options(const Written& written, SceneArguments& arguments) 
   }
 }
 
-Verb interpret_render(const Written& written) {
-  RenderArguments arguments;
+void interpret_output_options(const Written& written, OutputArguments& arguments) {
   interpret_scene_options(written, arguments);
   arguments.outputs = written.outputs;
+  if (written.frames.empty()) return;
+  arguments.frames = frame_range_of(written.frames);
+  if (!arguments.frames) {
+    refuse("--frames " + written.frames, "numbers of frames up to 1000000, like 17, 0-100 or 0-100:5");
+  }
+}
+
+Verb interpret_render(const Written& written) {
+  RenderArguments arguments;
+  interpret_output_options(written, arguments);
   if (!written.size.empty()) {
     const std::string origin = "--size " + written.size;
     const auto size = integers_between(written.size, "x");
@@ -183,8 +197,7 @@ Verb interpret_verb(const std::string& name, const Written& written) {
   if (name == "render") return interpret_render(written);
   if (name == "mesh") {
     MeshArguments arguments;
-    interpret_scene_options(written, arguments);
-    arguments.outputs = written.outputs;
+    interpret_output_options(written, arguments);
     add_override(arguments, "--cell-size", "mesh.cell_size", written.cell_size);
     return arguments;
   }

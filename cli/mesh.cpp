@@ -20,16 +20,22 @@ constexpr std::size_t kBytesPerTriangle = 128;
 void run(const MeshArguments& arguments) {
   for (const std::string& output : arguments.outputs) mesh_format(output);
   const Scene scene = load_scene(arguments.path, arguments.overrides);
-  for (const std::string& output : arguments.outputs) check_writable(output);
+  const std::vector<Frame> frames = frames_of(arguments.frames, arguments.outputs, scene.sequence);
+  for (const Frame& frame : frames) {
+    for (const std::string& output : frame.outputs) check_writable(output);
+  }
 
   ProgressBar bar(arguments.quiet);
-  const Model model = make_model(scene, {bar.stage("growing"), warn});
-  PolygonizeOptions options;
-  options.cell_size = cell_size(scene, model);
-  options.max_triangles = scene.max_triangles.value_or(machine_memory() / kBytesPerTriangle);
-  options.progress = bar.stage("meshing");
-  const Mesh mesh = polygonize(*compile(model.tree), options);
-  for (const std::string& output : arguments.outputs) write_surface(mesh, scene, model, output);
+  for (const Frame& frame : frames) {
+    const Scene now = frame.time ? at_time(scene, frame.time) : scene;
+    const Model model = make_model(now, {bar.stage(frame.title + "growing"), warn});
+    PolygonizeOptions options;
+    options.cell_size = cell_size(now, model);
+    options.max_triangles = scene.max_triangles.value_or(machine_memory() / kBytesPerTriangle);
+    options.progress = bar.stage(frame.title + "meshing");
+    const Mesh mesh = polygonize(*compile(model.tree), options);
+    for (const std::string& output : frame.outputs) write_surface(mesh, now, model, output);
+  }
 }
 
 }  // namespace barkridge::cli

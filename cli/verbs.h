@@ -1,10 +1,12 @@
 #pragma once
 // What the program can be told to do. One file a verb.
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "cli/frames.h"
 #include "raytrace/render.h"
 #include "scene/scene.h"
 
@@ -17,14 +19,17 @@ struct SceneArguments {
   bool quiet = false;
 };
 
-struct RenderArguments : SceneArguments {
+/// What verbs are told that make a picture or a mesh, or a sequence of them.
+struct OutputArguments : SceneArguments {
   std::vector<std::string> outputs;
+  std::optional<FrameRange> frames;
+};
+
+struct RenderArguments : OutputArguments {
   PixelRegion region;
   std::string region_origin;  ///< the region as the user wrote it
 };
-struct MeshArguments : SceneArguments {
-  std::vector<std::string> outputs;
-};
+struct MeshArguments : OutputArguments {};
 struct GrowArguments : SceneArguments {};
 struct SkeletonArguments : SceneArguments {};
 struct FieldArguments : SceneArguments {
