@@ -23,7 +23,7 @@ PathTracer::PathTracer(const Tracer& tracer, const RenderScene& scene, int bounc
       bark_(scene.material),
       dull_bark_(Material{scene.material.color, 0, 1}),
       ground_(Material{scene.ground.color, 0, 1}) {
-  const Box& box = tracer.scene_box();
+  const Box& box = scene.ground.surrounded.empty() ? tracer.scene_box() : scene.ground.surrounded;
   const Vec3 to_target = scene.camera.target - scene.camera.position;
   center_ = box.empty() ? scene.camera.target : box.center();
   haze_radius_ = kHazeRadius * (box.empty() ? glm::length(to_target) : box.diagonal());

@@ -141,6 +141,7 @@ RenderScene make_render_scene(const Scene& scene, const Field& field) {
   look.sun.angle_degrees = scene.sun.angle_degrees;
   look.sky = scene.sky;
   look.ground = scene.ground;
+  look.ground.surrounded = field.support();
   look.material = scene.material;
   return look;
 }

@@ -72,12 +72,13 @@ double thinnest_radius(const Model& model);
 /// `InputError` for a model without one that is empty, or growing by drawn widths, whose radii begin at 0.
 double cell_size(const Scene& scene, const Model& model);
 
-/// The solid that the camera is fitted to: `field`, the model's own, or at a time of its growth the model's at
-/// `growth.framed_time`, so that all frames have one camera.
+/// The solid that camera and ground are fitted to: `field`, the model's own, or at a time of its growth the model's at
+/// `growth.framed_time`, so that all frames have one view.
 std::shared_ptr<const Field> framed_field(const Scene& scene, std::shared_ptr<const Field> field,
                                           const Listener& listener = {});
 
-/// The look of the scene, with everything filled in that it leaves to the program, for the solid of `field`.
+/// The look of the scene, with everything filled in that it leaves to the program, for the solid of `field`, which need
+/// not be the one that is rendered.
 RenderScene make_render_scene(const Scene& scene, const Field& field);
 
 /// The file's header names the version, the scene's hash and all that determines the pixels.
