@@ -57,8 +57,8 @@ std::string footer(const std::string& text) { return wrapped(text + '\n' + kExit
 
 // The options of a verb as the user wrote them, before they mean anything.
 struct Written {
-  std::string scene, size, region, points, steps, seed, samples, cell_size, surface, level, statistics, max_modules,
-      max_memory;
+  std::string scene, size, region, frames, points, steps, seed, samples, cell_size, surface, level, statistics,
+      max_modules, max_memory;
   std::vector<std::string> definitions, outputs;
   std::vector<std::string> scenes;
   std::string folder;
@@ -90,6 +90,11 @@ CLI::App& add_verb(CLI::App& app, Written& written, const char* name, const char
 }
 
 void add_output_options(CLI::App& verb, Written& written, const char* output_text, bool required = true) {
+  add(verb, "--frames", written.frames, "A-B[:STEP]",
+      "Makes the growing plant at several times: frame k at k times growth.steps_per_frame derivation steps. Its "
+      "number "
+      "stands in the output's name instead of #### or %04d. A frame is the same whether it is made alone (--frames 17) "
+      "or among others");
   add(verb, "-o,--output", written.outputs, "FILE", output_text)->required(required)->allow_extra_args(false);
   add(verb, "-t,--threads", written.threads, "N",
       "Threads to use; 0, the default, means all. The result is the same for any number")
@@ -188,16 +193,21 @@ void interpret_scene_options(const Written& written, SceneArguments& arguments) 
   }
 }
 
-void add_surface_overrides(SceneArguments& arguments, const Written& written) {
+void interpret_output_options(const Written& written, OutputArguments& arguments) {
+  interpret_scene_options(written, arguments);
   add_override(arguments, "--surface", "surface.method", written.surface);
   add_override(arguments, "--level", "surface.level", written.level);
+  arguments.outputs = written.outputs;
+  if (written.frames.empty()) return;
+  arguments.frames = frame_range_of(written.frames);
+  if (!arguments.frames) {
+    refuse("--frames " + written.frames, "numbers of frames up to 1000000, like 17, 0-100 or 0-100:5");
+  }
 }
 
 Verb interpret_render(const Written& written) {
   RenderArguments arguments;
-  interpret_scene_options(written, arguments);
-  add_surface_overrides(arguments, written);
-  arguments.outputs = written.outputs;
+  interpret_output_options(written, arguments);
   if (!written.size.empty()) {
     const std::string origin = "--size " + written.size;
     const auto size = integers_between(written.size, "x");
@@ -222,11 +232,10 @@ Verb interpret_verb(const std::string& name, const Written& written) {
   if (name == "render") return interpret_render(written);
   if (name == "mesh") {
     MeshArguments arguments;
-    interpret_scene_options(written, arguments);
-    arguments.outputs = written.outputs;
+    interpret_output_options(written, arguments);
     arguments.statistics = written.statistics;
     if (arguments.outputs.empty() && arguments.statistics.empty()) refuse("mesh", "-o FILE, or --statistics FILE");
-    add_surface_overrides(arguments, written);
+    if (arguments.frames && !arguments.statistics.empty()) refuse("--statistics", "no --frames beside it");
     add_override(arguments, "--cell-size", "mesh.cell_size", written.cell_size);
     return arguments;
   }

@@ -20,9 +20,10 @@ struct Made {
   Mesh mesh;
 };
 
-Made make(const Scene& scene, ProgressBar& bar, StageClock clock, WorkStatistics& statistics) {
+Made make(const Scene& scene, ProgressBar& bar, const std::string& title, StageClock clock,
+          WorkStatistics& statistics) {
   const std::size_t limit = scene.max_triangles.value_or(machine_memory() / kBytesPerTriangle);
-  const Listener growing{bar.stage("growing"), warn};
+  const Listener growing{bar.stage(title + "growing"), warn};
   Made made;
   if (is_subdivided(scene)) {
     made.model.skeleton = make_skeleton(scene, growing);
@@ -41,7 +42,7 @@ Made make(const Scene& scene, ProgressBar& bar, StageClock clock, WorkStatistics
     }
     const std::shared_ptr<const Field> field = compile(made.model.tree);
     statistics.build_seconds = clock.lap();
-    made.mesh = implicit_mesh(scene, made.model, *field, limit, bar.stage("meshing"));
+    made.mesh = implicit_mesh(scene, made.model, *field, limit, bar.stage(title + "meshing"));
   }
   statistics.surface_seconds = clock.lap();
   statistics.internodes = made.model.skeleton.internodes.size();
@@ -55,14 +56,20 @@ void run(const MeshArguments& arguments) {
   const StageClock clock;
   for (const std::string& output : arguments.outputs) mesh_format(output);
   const Scene scene = load_scene(arguments.path, arguments.overrides);
-  for (const std::string& output : arguments.outputs) check_writable(output);
+  const std::vector<Frame> frames = frames_of(arguments.frames, arguments.outputs, scene.sequence);
+  for (const Frame& frame : frames) {
+    for (const std::string& output : frame.outputs) check_writable(output);
+  }
   if (!arguments.statistics.empty()) check_writable(arguments.statistics);
 
   ProgressBar bar(arguments.quiet);
   WorkStatistics statistics;
-  const Made made = make(scene, bar, clock, statistics);
+  for (const Frame& frame : frames) {
+    const Scene now = frame.time ? at_time(scene, frame.time) : scene;
+    const Made made = make(now, bar, frame.title, clock, statistics);
+    for (const std::string& output : frame.outputs) write_surface(made.mesh, now, made.model, output);
+  }
   if (!arguments.statistics.empty()) statistics.write(arguments.statistics);
-  for (const std::string& output : arguments.outputs) write_surface(made.mesh, scene, made.model, output);
 }
 
 }  // namespace barkridge::cli

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <stdexcept>
 
 #include "base/error.h"
@@ -52,22 +53,30 @@ void run(const RenderArguments& arguments) {
   RenderOptions options = scene.image;
   options.region = arguments.region;
   check_memory(options);
-  for (const std::string& output : arguments.outputs) check_writable(output);
+  const std::vector<Frame> frames = frames_of(arguments.frames, arguments.outputs, scene.sequence);
+  for (const Frame& frame : frames) {
+    for (const std::string& output : frame.outputs) check_writable(output);
+  }
   prepare_image_writing(arguments.outputs);
 
   ProgressBar bar(arguments.quiet);
-  const Model model = make_model(scene, {bar.stage("growing"), warn});
-  const std::shared_ptr<const Field> field = compile(model.tree);
-  // A codec that cannot be loaded ends the job as soon as that is known.
-  options.progress = [&arguments, shown = bar.stage("rendering")](double fraction) {
-    prepare_image_writing(arguments.outputs);
-    return !shown || shown(fraction);
-  };
-  const RenderScene look = make_render_scene(scene, model, *field);
-  const Image image = is_subdivided(scene)
-                          ? render(refine(scene, make_control_mesh(scene, model.skeleton), 0), look, options)
-                          : render(*field, look, options);
-  for (const std::string& output : arguments.outputs) write_picture(image, scene, model, output);
+  std::shared_ptr<const Field> framed;
+  for (const Frame& frame : frames) {
+    const Scene now = frame.time ? at_time(scene, frame.time) : scene;
+    const Listener listener{bar.stage(frame.title + "growing"), warn};
+    const Model model = make_model(now, listener);
+    const std::shared_ptr<const Field> field = compile(model.tree);
+    if (!framed) framed = framed_field(now, field, listener);
+    const RenderScene look = make_render_scene(now, model, *framed);
+    // A codec that cannot be loaded ends the job as soon as that is known.
+    options.progress = [&arguments, shown = bar.stage(frame.title + "rendering")](double fraction) {
+      prepare_image_writing(arguments.outputs);
+      return !shown || shown(fraction);
+    };
+    const Image image = is_subdivided(now) ? render(refine(now, make_control_mesh(now, model.skeleton), 0), look, options)
+                                           : render(*field, look, options);
+    for (const std::string& output : frame.outputs) write_picture(image, now, model, output);
+  }
 }
 
 }  // namespace barkridge::cli

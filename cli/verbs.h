@@ -1,10 +1,12 @@
 #pragma once
 // What the program can be told to do. One file a verb.
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "cli/frames.h"
 #include "raytrace/render.h"
 #include "scene/scene.h"
 
@@ -17,14 +19,18 @@ struct SceneArguments {
   bool quiet = false;
 };
 
-struct RenderArguments : SceneArguments {
+/// What verbs are told that make a picture or a mesh, or a sequence of them.
+struct OutputArguments : SceneArguments {
   std::vector<std::string> outputs;
+  std::optional<FrameRange> frames;
+};
+
+struct RenderArguments : OutputArguments {
   PixelRegion region;
   std::string region_origin;  ///< the region as the user wrote it
 };
-struct MeshArguments : SceneArguments {
-  std::vector<std::string> outputs;  ///< may be none if there is a file for statistics
-  std::string statistics;            ///< a file, or empty
+struct MeshArguments : OutputArguments {  // which may have no outputs if there is a file for statistics
+  std::string statistics;  ///< a file, or empty
 };
 struct GrowArguments : SceneArguments {};
 struct SkeletonArguments : SceneArguments {};

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -47,6 +48,7 @@ class Derivation {
       machine_.state.random.seed_choice(*options.seed);
       machine_.state.random.seed_uniform(*options.seed);
     }
+    machine_.state.time = options.time.value_or(options.steps.value_or(grammar.derivation_length));
   }
 
   Word run() {
@@ -62,12 +64,16 @@ class Derivation {
       rewrite();
     }
     report(options_.progress, 1);
+    if (!options_.time) machine_.state.time = step_;
     next_.state = std::make_shared<const MachineState>(std::move(machine_.state));
     return std::move(next_);
   }
 
  private:
-  int last_step() const { return options_.steps.value_or(machine_.state.derivation_length); }
+  int last_step() const {
+    const int length = options_.steps.value_or(machine_.state.derivation_length);
+    return options_.time && *options_.time < length ? static_cast<int>(std::ceil(*options_.time)) : length;
+  }
 
   void rewrite() {
     machine_.state.slots[kStepSlot] = step_;
@@ -80,8 +86,12 @@ class Derivation {
         report(options_.progress, (step_ - 1 + part) / last_step());
         next_report = i + kModulesPerReport;
       }
+      carry_cuts(i);
       i = rewrite_module(i);
     }
+    carry_cuts(current_.modules.size());
+    current_.cuts.clear();
+    carried_cuts_ = 0;
     machine_.run(grammar_.end_each);
     if (step_ == last_step()) machine_.run(grammar_.end);
   }
@@ -112,11 +122,49 @@ class Derivation {
       }
     }
     const Word::Module& module = current_.modules[position];
-    if (module.symbol == '%' && module.parameter_count == 0) return end_of_cut(position + 1);
+    if (module.symbol == '%' && module.parameter_count == 0) return cut(position + 1);
     make_room(1, module.parameter_count);
     append_copy(current_, position, next_);
     return position + 1;
   }
+
+  // Branches that `%` removes.
+
+  /// Removes what is left of a branch from `position` on; returns the position after it.
+  std::size_t cut(std::size_t position) {
+    const std::size_t end = end_of_cut(position);
+    if (!options_.keep_cuts || end == position) return end;
+    auto branch = std::make_shared<Word>();
+    for (std::size_t i = position; i <= end; ++i) {
+      restore_cuts(i, *branch);
+      if (i < end) append_copy(current_, i, *branch);
+      if (held_bytes() + bytes_of(*branch) > options_.max_memory) refuse_memory();
+    }
+    cut_bytes_ += bytes_of(*branch);
+    next_.cuts.push_back({next_.modules.size(), step_, std::move(branch)});
+    return end;
+  }
+
+  /// Puts what was cut at a position of the current word back, into the branch with which it now goes.
+  void restore_cuts(std::size_t position, Word& branch) {
+    for (; carried_cuts_ < current_.cuts.size() && current_.cuts[carried_cuts_].position == position; ++carried_cuts_) {
+      const Word& earlier = *current_.cuts[carried_cuts_].branch;
+      branch.modules.push_back({'[', 0, birth_step(), 0});
+      for (std::size_t i = 0; i < earlier.modules.size(); ++i) append_copy(earlier, i, branch);
+      branch.modules.push_back({']', 0, birth_step(), 0});
+      cut_bytes_ -= bytes_of(earlier);
+    }
+  }
+
+  /// Earlier cuts that stand at or before this position of the current word stand at the next word's end.
+  void carry_cuts(std::size_t position) {
+    for (; carried_cuts_ < current_.cuts.size() && current_.cuts[carried_cuts_].position <= position; ++carried_cuts_) {
+      next_.cuts.push_back(std::move(current_.cuts[carried_cuts_]));
+      next_.cuts.back().position = next_.modules.size();
+    }
+  }
+
+  static std::size_t bytes_of(const Word& word) { return bytes(word.modules.capacity(), word.parameters.capacity()); }
 
   /// The `]` that ends the branch which `%` cuts, or the end of the word.
   std::size_t end_of_cut(std::size_t position) const {
@@ -201,8 +249,7 @@ class Derivation {
   template <typename T>
   void grow(std::vector<T>& array, std::size_t needed) {
     // While an array moves to a larger place, the old one still takes memory.
-    const std::size_t held = bytes(current_.modules.capacity(), current_.parameters.capacity()) +
-                             bytes(next_.modules.capacity(), next_.parameters.capacity());
+    const std::size_t held = held_bytes();
     const auto fits = [&](std::size_t capacity) {
       return held <= options_.max_memory && capacity <= (options_.max_memory - held) / sizeof(T) &&
              capacity <= std::numeric_limits<std::uint32_t>::max();
@@ -210,12 +257,18 @@ class Derivation {
     std::size_t capacity = std::max<std::size_t>({needed, 2 * array.capacity(), 1024});
     if (!fits(capacity)) capacity = needed + needed / 16;
     if (!fits(capacity)) capacity = needed;
-    if (!fits(capacity)) {
-      throw LimitError(
-          fmt::format("step {}: the words would take more than {} MB of memory; --max-memory raises this limit", step_,
-                      options_.max_memory >> 20));
-    }
+    if (!fits(capacity)) refuse_memory();
     array.reserve(capacity);
+  }
+
+  std::size_t held_bytes() const {
+    return bytes(current_.modules.capacity(), current_.parameters.capacity()) +
+           bytes(next_.modules.capacity(), next_.parameters.capacity()) + cut_bytes_;
+  }
+  [[noreturn]] void refuse_memory() const {
+    throw LimitError(
+        fmt::format("step {}: the words would take more than {} MB of memory; --max-memory raises this limit", step_,
+                    options_.max_memory >> 20));
   }
 
   const GrammarDefinition& grammar_;
@@ -226,6 +279,8 @@ class Derivation {
   int step_ = 0;
   Word current_;
   Word next_;
+  std::size_t carried_cuts_ = 0;  // of the current word's
+  std::size_t cut_bytes_ = 0;
   std::vector<Level> levels_;
 };
 
@@ -233,6 +288,7 @@ class Derivation {
 
 Word derive(const Grammar& grammar, const DeriveOptions& options) {
   if (options.steps.value_or(0) < 0) throw InputError("the number of derivation steps must not be negative");
+  if (!(options.time.value_or(0) >= 0)) throw InputError("the time of a derivation must not be negative");
   return Derivation(grammar.definition(), options).run();
 }
 

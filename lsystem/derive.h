@@ -14,6 +14,11 @@ namespace barkridge {
 struct DeriveOptions {
   /// Derivation steps; by default what the L-system's `derivation length:` says. `Z` keeps that length.
   std::optional<int> steps;
+  /// A time in steps, not negative: takes only the steps that have begun by then, the first at time 0, and is what
+  /// `GetTime(0)` is. Without it all steps are taken, and their number is the time.
+  std::optional<double> time;
+  /// Whether the word keeps the branches that `%` removes (`Word::cuts`). They count in `max_memory`.
+  bool keep_cuts = false;
   /// Replaces the L-system's `seed:`, which starts the random choice of productions, and acts like `srand(seed)` before
   /// the first statement. Without `seed:` in the text, only productions with weights are chosen at random.
   std::optional<std::int64_t> seed;

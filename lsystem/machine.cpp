@@ -35,6 +35,7 @@ Integer to_integer(double x) {
 Machine::Machine(const GrammarDefinition& grammar, Notify listener)
     : Machine(grammar, std::move(listener), MachineState{}) {
   state.derivation_length = grammar.derivation_length;
+  state.time = grammar.derivation_length;
   state.slots.resize(grammar.slot_count);
   state.slots[kLengthSlot] = grammar.derivation_length;
   if (grammar.seed) state.random.seed_choice(*grammar.seed);
@@ -272,6 +273,9 @@ double Machine::run_instructions(const Program& program) {
       case Op::kSetDerivationLength:
         state.derivation_length = to_integer<std::int32_t>(top[-1]);
         top[-1] = 0;
+        break;
+      case Op::kGetTime:
+        top[-1] = state.time;
         break;
     }
   }

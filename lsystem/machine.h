@@ -19,6 +19,7 @@ struct MachineState {
   std::vector<double> slots;
   RandomStreams random;
   int derivation_length = 0;
+  double time = 0;       ///< what the word is derived for, in steps
   bool stopped = false;  ///< `stop(x)` was called with x other than 1
 };
 

@@ -7,7 +7,7 @@ namespace barkridge {
 
 namespace {
 
-constexpr std::array<FunctionInfo, 22> kFunctions{{
+constexpr std::array<FunctionInfo, 23> kFunctions{{
     {"sin", 1, Op::kSin},
     {"cos", 1, Op::kCos},
     {"tan", 1, Op::kTan},
@@ -30,6 +30,7 @@ constexpr std::array<FunctionInfo, 22> kFunctions{{
     {"stop", 1, Op::kStop},
     {"GetDerivationLength", 1, Op::kGetDerivationLength},
     {"SetDerivationLength", 1, Op::kSetDerivationLength},
+    {"GetTime", 1, Op::kGetTime},
 }};
 
 }  // namespace

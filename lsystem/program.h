@@ -59,6 +59,7 @@ enum class Op : std::uint8_t {
   kStop,
   kGetDerivationLength,
   kSetDerivationLength,
+  kGetTime,
 };
 
 struct Instruction {

@@ -41,6 +41,7 @@ Skeleton without_zero_lengths(Skeleton skeleton) {
   skeleton.dropped_internodes += skeleton.internodes.size() - kept;
   skeleton.internodes.resize(kept);
   for (Organ& organ : skeleton.organs) organ.internode = moved(organ.internode);
+  for (ShedBranch& shed : skeleton.shed_branches) shed.parent = moved(shed.parent);
   return skeleton;
 }
 

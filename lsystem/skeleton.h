@@ -41,10 +41,20 @@ struct Organ {
   InternodeId internode = kNoInternode;  ///< the internode at whose tip it grew
 };
 
+/// A branch that the plant has lost.
+struct ShedBranch {
+  InternodeId parent = kNoInternode;  ///< the internode at whose tip it grew
+  Vec3 base{0};
+  Vec3 heading{0, 1, 0};  ///< unit, of its first internode
+  double radius = 0;      ///< > 0, at its base when it was shed
+  double age = 0;         ///< derivation steps since it was shed
+};
+
 /// A branching structure. Parents come before children; both ends of every internode differ.
 struct Skeleton {
   std::vector<Internode> internodes;
   std::vector<Organ> organs;
+  std::vector<ShedBranch> shed_branches;
   /// Internodes of zero length that were dropped, their children attached to their parents.
   std::size_t dropped_internodes = 0;
 };
@@ -57,7 +67,8 @@ struct ChildTable {
 };
 ChildTable child_table(const Skeleton& skeleton);
 
-/// Drops internodes whose ends coincide, attaches their children to their parents, and counts them. Organs follow.
+/// Drops internodes whose ends coincide, attaches their children to their parents, and counts them. Organs and what
+/// was shed follow.
 Skeleton without_zero_lengths(Skeleton skeleton);
 
 /// The skeleton table: a first line `# barkridge skeleton 1`, then a line an internode,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <set>
 #include <string>
@@ -12,16 +13,24 @@
 #include <vector>
 
 #include "lsystem/homomorphism.h"
+#include "lsystem/machine.h"
 
 namespace barkridge {
 
 namespace {
 
 constexpr double kMinWidth = 1e-7;
+constexpr double kLeastLength = 1e-6;  // of what has just appeared
 constexpr std::size_t kModulesPerReport = 1 << 16;
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+std::shared_ptr<const MachineState> state_at(const MachineState& state, double time) {
+  auto changed = std::make_shared<MachineState>(state);
+  changed->time = time;
+  return changed;
+}
 
 /// Turns `a` towards `b` and `b` away from `a`.
 void turn(Vec3& a, Vec3& b, double sine, double cosine) {
@@ -50,7 +59,10 @@ struct State {
 class Turtle {
  public:
   Turtle(const Word& word, const Grammar* grammar, const TurtleOptions& options)
-      : word_(word), options_(options), modules_(word, grammar, options.max_modules, options.notify) {
+      : word_(word),
+        grammar_(grammar),
+        options_(options),
+        modules_(word, grammar, options.max_modules, options.notify) {
     now_.width = options.line_width * options.step;
     now_.scale = options.initial_scale;
     now_.color = options.color;
@@ -60,16 +72,19 @@ class Turtle {
   Skeleton run() {
     std::size_t next_report = 0;
     while (modules_.next()) {
+      record_cuts(modules_.origin());
       obey();
       if (modules_.origin() < next_report) continue;
       report(options_.progress, static_cast<double>(modules_.origin()) / static_cast<double>(word_.modules.size()));
       next_report = modules_.origin() + kModulesPerReport;
     }
+    record_cuts(word_.modules.size());
     end_segment();
     if (!stack_.empty()) {
       throw InputError(fmt::format("{}: this `[` lacks its `]`", describe(now_.opened_at)));
     }
     report(options_.progress, 1);
+    thicken(skeleton_, options_.growth);
     return std::move(skeleton_);
   }
 
@@ -103,13 +118,13 @@ class Turtle {
         now_.position += step_length() * now_.heading;
         return;
       case '+':
-        return rotate(now_.heading, now_.left, 1);
+        return rotate(now_.heading, now_.left, opened());
       case '-':
-        return rotate(now_.heading, now_.left, -1);
+        return rotate(now_.heading, now_.left, -opened());
       case '&':
-        return rotate(now_.heading, now_.down, 1);
+        return rotate(now_.heading, now_.down, opened());
       case '^':
-        return rotate(now_.heading, now_.down, -1);
+        return rotate(now_.heading, now_.down, -opened());
       case '/':
         return rotate(now_.left, now_.down, 1);
       case '\\':
@@ -149,11 +164,20 @@ class Turtle {
     }
   }
 
-  double step_length() const { return value_or(options_.step) * now_.scale; }
+  // What the present module has reached by its age.
 
-  void rotate(Vec3& a, Vec3& b, double sign) {
-    const double angle = radians(value_or(options_.angle_increment_degrees));
-    turn(a, b, sign * std::sin(angle), std::cos(angle));
+  double grown(double steps) const { return grown_part(modules_.module().birth_step, steps, options_.growth); }
+  double opened() const { return grown(options_.growth.opening_steps); }
+  double grown_length(double length) const {
+    const double part = grown(options_.growth.elongation_steps);
+    return part < kLeastLength ? 0 : part * length;
+  }
+
+  double step_length() const { return grown_length(value_or(options_.step) * now_.scale); }
+
+  void rotate(Vec3& a, Vec3& b, double factor) {
+    const double angle = factor * radians(value_or(options_.angle_increment_degrees));
+    turn(a, b, std::sin(angle), std::cos(angle));
   }
 
   void set_width(double sign) {
@@ -244,11 +268,39 @@ class Turtle {
   void add_organ(std::string kind, double size) {
     if (!finite(now_.position)) fail("the turtle is infinitely far away here");
     if (!std::isfinite(size)) fail("something of infinite size is drawn here");
+    const double grown_size = grown_length(size);
+    if (grown_size == 0 && size != 0) return;
     if (skeleton_.organs.size() >= options_.max_internodes) {
       throw LimitError(fmt::format("the skeleton would have more than {} organs", options_.max_internodes));
     }
     skeleton_.organs.push_back(
-        {std::move(kind), now_.position, now_.heading, now_.left, -now_.down, size, now_.color, now_.internode});
+        {std::move(kind), now_.position, now_.heading, now_.left, -now_.down, grown_size, now_.color, now_.internode});
+  }
+
+  // What was shed.
+
+  /// Of the cuts before the module at `origin`, those right before it; the turtle passed over the others.
+  void record_cuts(std::size_t origin) {
+    for (; next_cut_ < word_.cuts.size() && word_.cuts[next_cut_].position <= origin; ++next_cut_) {
+      if (word_.cuts[next_cut_].position == origin) record(word_.cuts[next_cut_]);
+    }
+  }
+
+  void record(const Word::Cut& cut) {
+    const double now = options_.growth.time.value_or(word_.state->time), then = birth_time(cut.step);
+    TurtleOptions options = options_;
+    options.progress = {};
+    options.growth.time = then;
+    Word branch = *cut.branch;
+    branch.state = state_at(*word_.state, then);
+    Turtle turtle(branch, grammar_, options);
+    turtle.now_ = now_;
+    turtle.now_.internode = kNoInternode;
+    for (const Internode& internode : turtle.run().internodes) {
+      if (internode.parent != kNoInternode) continue;
+      skeleton_.shed_branches.push_back({now_.internode, internode.base, glm::normalize(internode.tip - internode.base),
+                                         internode.base_radius, now - then});
+    }
   }
 
   // Sub-L-systems have a scale of their own, which replaces the turtle's.
@@ -379,11 +431,13 @@ class Turtle {
   }
 
   const Word& word_;
+  const Grammar* const grammar_;
   const TurtleOptions& options_;
   InterpretedModules modules_;
   State now_;
   std::vector<State> stack_;
   std::vector<double> sub_lsystem_scales_;
+  std::size_t next_cut_ = 0;
   bool segment_is_open_ = false;  // the last internode's tip has no width yet
   std::set<std::string> noted_;
   Skeleton skeleton_;

@@ -4,6 +4,7 @@
 
 #include "base/progress.h"
 #include "lsystem/grammar.h"
+#include "lsystem/growth.h"
 #include "lsystem/notify.h"
 #include "lsystem/skeleton.h"
 #include "lsystem/word.h"
@@ -22,6 +23,9 @@ struct TurtleOptions {
   int color_increment = 1;
   /// Whether `!` and `#` after a segment set its tip's width (cpfg's `tapered lines`).
   bool tapered_lines = true;
+  /// At a time, sizes and turns are those of their modules' ages. What has less than a millionth of its length is not
+  /// there yet.
+  GrowthOptions growth;
   /// Most internodes a skeleton may have.
   std::size_t max_internodes = 20'000'000;
   /// Most modules that the homomorphism may make.
@@ -40,6 +44,9 @@ struct TurtleOptions {
 /// move without drawing changes nothing about that, so that a gap may lie between a segment and its parent. A segment's
 /// base has the width at its `F`, its tip the width at the next command that ends it: a tip of width 0 is drawn 1e-7
 /// wide, as in cpfg. Segments of zero length are dropped and counted, and their children belong to their parents.
+///
+/// Where the word keeps its cuts, each branch that was shed with a segment in it is recorded, as it was when it was
+/// shed but where the plant now has its place.
 ///
 /// Throws `InputError` on positions and widths that are not finite, widths that are zero or negative where a segment
 /// begins or negative where it ends, and brackets without their partner; and `LimitError`.

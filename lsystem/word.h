@@ -21,8 +21,16 @@ struct Word {
     std::uint16_t birth_step = 0;  ///< the derivation step that made it, saturating
     std::uint32_t first_parameter = 0;
   };
+  /// A branch that `%` removed, whole with what it had lost before, and where it stood.
+  struct Cut {
+    std::size_t position = 0;  ///< before this module
+    std::int32_t step = 0;     ///< the derivation step that removed it
+    std::shared_ptr<const Word> branch;
+  };
   std::vector<Module> modules;
   std::vector<float> parameters;
+  /// By position; only where the derivation was asked to keep them.
+  std::vector<Cut> cuts;
   /// What the L-system's variables and random streams held after the last step, for the homomorphism to go on from;
   /// null for a word that was not derived.
   std::shared_ptr<const MachineState> state;

@@ -28,7 +28,7 @@ PathTracer::PathTracer(const Tracer& tracer, const RenderScene& scene, const Foo
       sky_average_(sky_average(scene.sky)),
       bark_(scene.material),
       ground_(Material{scene.ground.color, 0, 1}) {
-  const Box& box = tracer.scene_box();
+  const Box& box = scene.ground.surrounded.empty() ? tracer.scene_box() : scene.ground.surrounded;
   const Vec3 to_target = scene.camera.target - scene.camera.position;
   center_ = box.empty() ? scene.camera.target : box.center();
   haze_radius_ = kHazeRadius * (box.empty() ? glm::length(to_target) : box.diagonal());

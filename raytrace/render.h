@@ -42,11 +42,13 @@ struct Sky {
   double intensity = 0.9;
 };
 
-/// The horizontal plane y = height. Far away, against the scene's size, it fades into the horizon.
+/// The horizontal plane y = height. Far away, against the size of a box, it fades into the horizon.
 struct Ground {
   bool enabled = true;
   double height = 0;
   Color color{0.25, 0.235, 0.175};
+  /// That box; if it is empty, the support of the field.
+  Box surrounded;
 };
 
 struct RenderScene {

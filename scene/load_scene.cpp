@@ -176,6 +176,10 @@ void check_together(const std::vector<Setting>& settings, const std::string& pat
     throw InputError(place_of(settings, {"camera.target"}, path),
                      "camera.target: expected another point than camera.position");
   }
+  if (scene.turtle.growth.time && scene.model.kind != ModelSource::Kind::kLsystem) {
+    throw InputError(place_of(settings, {"growth.time"}, path),
+                     "growth.time: expected an L-system as the model; no other can grow");
+  }
   if (static_cast<std::int64_t>(scene.image.width) * scene.image.height > (std::int64_t{1} << 31)) {
     throw LimitError(place_of(settings, {"image.width", "image.height"}, path),
                      fmt::format("a picture of {} x {} pixels; expected at most 2^31 pixels", scene.image.width,

@@ -39,6 +39,19 @@ bool has_lsystem(const Scene& scene) { return scene.model.kind == ModelSource::K
 bool has_word(const Scene& scene) { return has_lsystem(scene) || scene.model.kind == ModelSource::Kind::kString; }
 bool has_skeleton(const Scene& scene) { return scene.model.kind != ModelSource::Kind::kTree; }
 
+Scene at_time(const Scene& scene, std::optional<double> time) {
+  if (time && !has_lsystem(scene)) {
+    throw InputError({scene.model.file, 0, 0, ""}, "expected an L-system, which can grow; this model has no times");
+  }
+  if (time && !(*time <= kMaxGrowthTime)) {
+    throw LimitError({scene.model.file, 0, 0, ""},
+                     fmt::format("a time of {:g} derivation steps; expected at most {:g}", *time, kMaxGrowthTime));
+  }
+  Scene then = scene;
+  then.turtle.growth.time = time;
+  return then;
+}
+
 Growth grow(const Scene& scene, const Listener& listener) {
   Growth growth;
   if (!has_word(scene)) {
@@ -53,6 +66,8 @@ Growth grow(const Scene& scene, const Listener& listener) {
   DeriveOptions options = scene.derivation;
   options.progress = listener.progress;
   options.notify = listener.notify;
+  options.time = scene.turtle.growth.time;
+  options.keep_cuts = scene.turtle.growth.pipe.tip_radius.has_value();
   growth.word = naming_file(scene.model.file, [&] { return derive(*growth.grammar, options); });
   return growth;
 }
@@ -70,8 +85,10 @@ Skeleton make_skeleton(const Scene& scene, const Listener& listener) {
     throw InputError({scene.model.file, 0, 0, ""},
                      "expected a model with a skeleton; this one is a tree written by hand");
   }
-  if (scene.model.kind == ModelSource::Kind::kLst) return read_lst(scene.model.text, scene.model.file);
-  return read_skeleton_table(scene.model.text, scene.model.file);
+  Skeleton skeleton = scene.model.kind == ModelSource::Kind::kLst ? read_lst(scene.model.text, scene.model.file)
+                                                                  : read_skeleton_table(scene.model.text, scene.model.file);
+  thicken(skeleton, scene.turtle.growth);
+  return skeleton;
 }
 
 Model make_model(const Scene& scene, const Listener& listener) {
@@ -95,11 +112,22 @@ double thinnest_radius(const Model& model) {
 
 double cell_size(const Scene& scene, const Model& model) {
   if (scene.cell_size) return *scene.cell_size;
-  const double thinnest = thinnest_radius(model);
+  const GrowthOptions& growth = scene.turtle.growth;
+  if (growth.time && !growth.pipe.tip_radius) {
+    throw InputError({scene.model.file, 0, 0, ""},
+                     "the thinnest branches have only begun to grow; expected mesh.cell_size or growth.tip_radius");
+  }
+  const double thinnest = growth.pipe.tip_radius ? *growth.pipe.tip_radius : thinnest_radius(model);
   if (thinnest == 0) {
     throw InputError({scene.model.file, 0, 0, ""}, "the model is empty; expected mesh.cell_size, which nothing gives");
   }
   return kCellsPerThinnestRadius * thinnest;
+}
+
+std::shared_ptr<const Field> framed_field(const Scene& scene, std::shared_ptr<const Field> field,
+                                          const Listener& listener) {
+  if (!scene.turtle.growth.time || scene.turtle.growth.time == scene.sequence.framed_time) return field;
+  return compile(make_model(at_time(scene, scene.sequence.framed_time), listener).tree);
 }
 
 RenderScene make_render_scene(const Scene& scene, const Model& model, const Field& field) {
@@ -113,6 +141,7 @@ RenderScene make_render_scene(const Scene& scene, const Model& model, const Fiel
   look.sun.angle_degrees = scene.sun.angle_degrees;
   look.sky = scene.sky;
   look.ground = scene.ground;
+  look.ground.surrounded = field.support();
   look.material = scene.material;
   look.shader = make_bark_shader(model.tree, model.skeleton, model.primitives, scene.material, scene.bark);
   return look;

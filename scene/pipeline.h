@@ -35,6 +35,10 @@ bool has_lsystem(const Scene& scene);
 bool has_word(const Scene& scene);
 bool has_skeleton(const Scene& scene);
 
+/// The scene at a time of its growth, or, without a time, grown up. Throws `InputError` for a time if the model is no
+/// L-system's, `LimitError` for one after `kMaxGrowthTime`.
+Scene at_time(const Scene& scene, std::optional<double> time);
+
 /// A string of modules, and the L-system that it came from, if any.
 struct Growth {
   std::optional<Grammar> grammar;
@@ -48,7 +52,8 @@ Growth grow(const Scene& scene, const Listener& listener = {});
 /// The skeleton that the turtle draws.
 Skeleton draw(const Scene& scene, const Growth& growth, const Listener& listener = {});
 
-/// The scene's skeleton, from whatever source: read, or grown and drawn. Throws `InputError` if a tree is its model.
+/// The scene's skeleton, from whatever source: read, or grown and drawn; as thick as `growth` makes it. Throws
+/// `InputError` if a tree is its model.
 Skeleton make_skeleton(const Scene& scene, const Listener& listener = {});
 
 /// A model ready for compilation. The skeleton is empty where the tree was written by hand.
@@ -64,11 +69,17 @@ Model make_model(const Scene& scene, Skeleton skeleton);
 /// the most; 0 for an empty model.
 double thinnest_radius(const Model& model);
 
-/// The scene's cell size, or half the thinnest radius. Throws `InputError` for an empty model without one.
+/// The scene's cell size, or half the thinnest radius; half a grown tip's where the pipe model makes radii. Throws
+/// `InputError` for a model without one that is empty, or growing by drawn widths, whose radii begin at 0.
 double cell_size(const Scene& scene, const Model& model);
 
-/// The look of the scene, with everything filled in that it leaves to the program, for the solid of `field`, which is
-/// the model's.
+/// The solid that camera and ground are fitted to: `field`, the model's own, or at a time of its growth the model's at
+/// `growth.framed_time`, so that all frames have one view.
+std::shared_ptr<const Field> framed_field(const Scene& scene, std::shared_ptr<const Field> field,
+                                          const Listener& listener = {});
+
+/// The look of the scene, with everything filled in that it leaves to the program: the camera for the solid of `field`,
+/// which need not be the one that is rendered, the bark for the model that is.
 RenderScene make_render_scene(const Scene& scene, const Model& model, const Field& field);
 
 /// The file's header names the version, the scene's hash and all that determines the pixels.

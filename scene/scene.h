@@ -72,12 +72,21 @@ struct SceneSun {
   double angle_degrees = Sun{}.angle_degrees;
 };
 
+/// How a sequence of pictures or meshes of a growing plant counts its times.
+struct SceneSequence {
+  /// Derivation steps from one frame to the next: frame k stands at k times as many.
+  double steps_per_frame = 1;
+  /// The time of the model that the camera is fitted to, in all frames; without it the grown-up one.
+  std::optional<double> framed_time;
+};
+
 struct Scene {
   ModelSource model;
   DeriveOptions derivation;
   /// Replacements for values that the L-system defines.
   std::map<std::string, std::string> defines;
   TurtleOptions turtle;
+  SceneSequence sequence;
   TreeOptions tree;
   SurfaceOptions surface;
   SceneCamera camera;

@@ -72,7 +72,8 @@ std::string scene_hash(const Scene& scene, const Model& model) {
   Sha256 hash;
   hash.add("barkridge scene 1\n");
   for (const SceneKey& key : scene_keys()) {
-    if (is_seen(key.name)) hash.add(fmt::format("{} = {}\n", key.name, key.value(scene)));
+    const bool fits_camera = scene.turtle.growth.time && key.name == "growth.framed_time";
+    if (is_seen(key.name) || fits_camera) hash.add(fmt::format("{} = {}\n", key.name, key.value(scene)));
   }
   if (scene.model.kind == ModelSource::Kind::kTree) {
     hash.add(to_string(model.tree));

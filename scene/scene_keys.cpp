@@ -292,6 +292,41 @@ void add_turtle_keys(Keys& keys) {
       [](auto& s) -> auto& { return s.turtle.max_internodes; }, "Most internodes that a skeleton may have."));
 }
 
+void add_growth_keys(Keys& keys) {
+  keys.push_back(number(
+      "growth.time", from_to(0, kMaxGrowthTime), [](auto& s) -> auto& { return s.turtle.growth.time; },
+      "Age of the plant, in derivation steps, whole or not. Left out, all steps are taken and all is grown up."));
+  keys.push_back(number(
+      "growth.steps_per_frame", above(0), [](auto& s) -> auto& { return s.sequence.steps_per_frame; },
+      "Time from one of the frames of `--frames` to the next, in derivation steps."));
+  keys.push_back(number(
+      "growth.framed_time", from_to(0, kMaxGrowthTime), [](auto& s) -> auto& { return s.sequence.framed_time; },
+      "The time at which a fitted camera sees the whole plant, whatever `growth.time`. Left out, when it is grown "
+      "up."));
+  keys.push_back(choice<GrowthCurve>(
+      "growth.curve", {{GrowthCurve::kSigmoid, "sigmoid"}, {GrowthCurve::kPower, "power"}},
+      [](auto& s) -> auto& { return s.turtle.growth.curve; },
+      "How sizes follow age: slow, fast and slow again, or by a power of it."));
+  keys.push_back(number(
+      "growth.exponent", at_least(1), [](auto& s) -> auto& { return s.turtle.growth.exponent; },
+      "The power; 1 grows evenly."));
+  keys.push_back(number(
+      "growth.elongation_steps", at_least(0), [](auto& s) -> auto& { return s.turtle.growth.elongation_steps; },
+      "Age at which internodes are as long, and organs as large, as they are drawn; 0 for at once."));
+  keys.push_back(number(
+      "growth.opening_steps", at_least(0), [](auto& s) -> auto& { return s.turtle.growth.opening_steps; },
+      "Age at which turns (+ - & ^) have their angles; 0 for at once."));
+  keys.push_back(number(
+      "growth.thickening_steps", at_least(0), [](auto& s) -> auto& { return s.turtle.growth.thickening_steps; },
+      "Age at which widths are those drawn, or a tip that of the pipe model; 0 for at once."));
+  keys.push_back(number(
+      "growth.tip_radius", above(0), [](auto& s) -> auto& { return s.turtle.growth.pipe.tip_radius; },
+      "Radius of tips, from which the pipe model has all others. Left out, widths are those drawn."));
+  keys.push_back(number(
+      "growth.pipe_exponent", from_to(1, 10), [](auto& s) -> auto& { return s.turtle.growth.pipe.exponent; },
+      "The exponent whose power of the radius branches share; 2 is da Vinci's rule."));
+}
+
 void add_surface_keys(Keys& keys) {
   keys.push_back(choice<SurfaceMethod>(
       "surface.method",
@@ -463,6 +498,7 @@ Keys make_keys() {
   add_model_keys(keys);
   add_lsystem_keys(keys);
   add_turtle_keys(keys);
+  add_growth_keys(keys);
   add_surface_keys(keys);
   add_camera_keys(keys);
   add_light_keys(keys);
