@@ -28,8 +28,8 @@ struct BarkOptions {
   double bump = 1;  ///< factor of the pattern's height, >= 0
   Color smooth_color = PoplarBark{}.smooth_color;
   Color furrowed_color = PoplarBark{}.furrowed_color;
-  Color ridge_color{0.07, 0.06, 0.05};
-  double ridge = 0.7;  ///< how much of that colour ridges have, 0 to 1
+  Color ridge_color{0.03, 0.025, 0.02};
+  double ridge = 0.8;  ///< how much of that colour ridges have, 0 to 1
   Color wood_color = Wood{}.color;
   /// Without it a fortieth of the thickest branch's radius.
   std::optional<double> ring_width;

@@ -60,7 +60,7 @@ struct Written {
   std::string scene, size, region, points, steps, seed, samples, cell_size, max_modules, max_memory;
   std::vector<std::string> definitions, outputs;
   int threads = 0;
-  bool quiet = false, json = false;
+  bool quiet = false, json = false, attributes = false;
 };
 
 template <typename Value>
@@ -112,6 +112,10 @@ void add_verbs(CLI::App& app, Written& written) {
   add(mesh, "--cell-size", written.cell_size, "H",
       "Edge length of the sampling cells in scene units (mesh.cell_size); by default half the thinnest branch's "
       "radius");
+
+  mesh.add_flag("--attributes", written.attributes,
+                help("Adds texture coordinates, attributes of the vertices and, where bark is not plain, colours "
+                     "(mesh.attributes)"));
 
   CLI::App& grow =
       add_verb(app, written, "grow", "Derives an L-system and prints its string.",
@@ -186,6 +190,7 @@ Verb interpret_verb(const std::string& name, const Written& written) {
     interpret_scene_options(written, arguments);
     arguments.outputs = written.outputs;
     add_override(arguments, "--cell-size", "mesh.cell_size", written.cell_size);
+    if (written.attributes) arguments.overrides.push_back({"mesh.attributes", "true", "--attributes"});
     return arguments;
   }
   if (name == "grow") {

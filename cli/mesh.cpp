@@ -28,7 +28,7 @@ void run(const MeshArguments& arguments) {
   options.cell_size = cell_size(scene, model);
   options.max_triangles = scene.max_triangles.value_or(machine_memory() / kBytesPerTriangle);
   options.progress = bar.stage("meshing");
-  const Mesh mesh = polygonize(*compile(model.tree), options);
+  const Mesh mesh = make_dressed(polygonize(*compile(model.tree), options), scene, model);
   for (const std::string& output : arguments.outputs) write_surface(mesh, scene, model, output);
 }
 

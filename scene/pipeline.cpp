@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 
+#include "bark/dress_mesh.h"
 #include "base/error.h"
 #include "base/version.h"
 #include "mesh/write.h"
@@ -30,6 +32,24 @@ auto naming_file(const std::string& file, Work work) {
     if (error.where().file.empty()) throw InputError({file, 0, 0, ""}, error.message());
     throw;
   }
+}
+
+// The radius of the thickest branch, or of what a tree written by hand has of a size.
+double thickest_radius(const Model& model) {
+  double thickest = 0;
+  for (const Internode& internode : model.skeleton.internodes) {
+    thickest = std::max({thickest, internode.base_radius, internode.tip_radius});
+  }
+  return thickest > 0 ? thickest : thinnest_radius(model.tree);
+}
+
+TextureMapping texture_mapping(const TextureSize& size, const Model& model) {
+  const double thickest = thickest_radius(model);
+  TextureMapping mapping;
+  mapping.width = size.width.value_or(2 * std::numbers::pi * thickest);
+  mapping.height = size.height.value_or(mapping.width);
+  mapping.followed_radius = size.follows_radius ? thickest : 0;
+  return mapping;
 }
 
 }  // namespace
@@ -98,6 +118,16 @@ double cell_size(const Scene& scene, const Model& model) {
     throw InputError({scene.model.file, 0, 0, ""}, "the model is empty; expected mesh.cell_size, which nothing gives");
   }
   return kCellsPerThinnestRadius * thinnest;
+}
+
+Mesh make_dressed(Mesh mesh, const Scene& scene, const Model& model) {
+  if (!scene.mesh_attributes || mesh.triangles.empty()) return mesh;
+  const auto shader = make_bark_shader(model.tree, model.skeleton, model.primitives, scene.material, scene.bark);
+  DressOptions options;
+  options.texture = texture_mapping(scene.texture, model);
+  options.shader = shader.get();
+  options.footprint = cell_size(scene, model);
+  return dressed(std::move(mesh), model.tree, model.skeleton, model.primitives, options);
 }
 
 RenderScene make_render_scene(const Scene& scene, const Model& model, const Field& field) {

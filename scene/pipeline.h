@@ -67,6 +67,9 @@ double thinnest_radius(const Model& model);
 /// The scene's cell size, or half the thinnest radius. Throws `InputError` for an empty model without one.
 double cell_size(const Scene& scene, const Model& model);
 
+/// The mesh with what the scene's `mesh.attributes` asks for; the mesh itself where it does not.
+Mesh make_dressed(Mesh mesh, const Scene& scene, const Model& model);
+
 /// The look of the scene, with everything filled in that it leaves to the program, for the solid of `field`, which is
 /// the model's.
 RenderScene make_render_scene(const Scene& scene, const Model& model, const Field& field);

@@ -56,6 +56,12 @@ struct SceneSun {
   double angle_degrees = Sun{}.angle_degrees;
 };
 
+/// Of the bark that an image covers; a width left out is the thickest branch's circumference, a height the width.
+struct TextureSize {
+  std::optional<double> width, height;
+  bool follows_radius = false;
+};
+
 struct Scene {
   ModelSource model;
   DeriveOptions derivation;
@@ -74,6 +80,9 @@ struct Scene {
   std::optional<double> cell_size;
   /// Most triangles of a mesh; without it as many as the machine's memory holds.
   std::optional<std::size_t> max_triangles;
+  /// Whether meshes get texture coordinates, attributes and, where bark is not plain, colours.
+  bool mesh_attributes = false;
+  TextureSize texture;
 };
 
 /// A value for a key of the scene from outside of its file.

@@ -316,6 +316,9 @@ void add_surface_keys(Keys& keys) {
   keys.push_back(integer(
       "mesh.max_triangles", 1, kMost, [](auto& s) -> auto& { return s.max_triangles; },
       "Most triangles. Left out, as many as the machine's memory holds."));
+  keys.push_back(flag(
+      "mesh.attributes", [](auto& s) -> auto& { return s.mesh_attributes; },
+      "Whether meshes get texture coordinates, attributes and, where bark is not plain, colours."));
 }
 
 void add_camera_keys(Keys& keys) {
@@ -426,6 +429,18 @@ void add_bark_keys(Keys& keys) {
       "Width of a growth ring. Left out, a fortieth of the thickest branch's radius."));
 }
 
+void add_texture_keys(Keys& keys) {
+  keys.push_back(number(
+      "texture.width", above(0), [](auto& s) -> auto& { return s.texture.width; },
+      "Width of the bark that an image covers. Left out, the thickest branch's circumference."));
+  keys.push_back(number(
+      "texture.height", above(0), [](auto& s) -> auto& { return s.texture.height; },
+      "Height of the bark that it covers. Left out, the width."));
+  keys.push_back(flag(
+      "texture.follows_radius", [](auto& s) -> auto& { return s.texture.follows_radius; },
+      "Whether it shrinks with the branch, instead of keeping its size and going fewer times around."));
+}
+
 void add_image_keys(Keys& keys) {
   keys.push_back(integer(
       "image.width", 1, 65536, [](auto& s) -> auto& { return s.image.width; }, "Pixels across."));
@@ -452,6 +467,7 @@ Keys make_keys() {
   add_light_keys(keys);
   add_surroundings_keys(keys);
   add_bark_keys(keys);
+  add_texture_keys(keys);
   add_image_keys(keys);
   return keys;
 }
