@@ -46,9 +46,8 @@ class Dresser {
         mesh_.colors[i] =
             glm::vec3(options_.shader->shade(point, Vec3(mesh_.normals[i]), options_.footprint).material.color);
       }
-      const auto largest = std::max_element(sample.shares.begin(), sample.shares.end(),
-                                            [](const auto& a, const auto& b) { return a.weight < b.weight; });
-      if (largest == sample.shares.end()) return;
+      const SurfaceShare* largest = largest_share(sample);
+      if (!largest) return;
       main_[i] = largest->primitive;
       internode[i] = coordinates_.of(largest->primitive).internode;
       mesh_.texture[i] = texture_at(*largest);

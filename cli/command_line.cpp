@@ -60,7 +60,7 @@ struct Written {
   std::string scene, size, region, points, steps, seed, samples, cell_size, max_modules, max_memory;
   std::vector<std::string> definitions, outputs;
   int threads = 0;
-  bool quiet = false, json = false, attributes = false;
+  bool quiet = false, json = false, attributes = false, layers = false;
 };
 
 template <typename Value>
@@ -103,6 +103,10 @@ void add_verbs(CLI::App& app, Written& written) {
   add(render, "--seed", written.seed, "N", "Seed of the picture's random numbers (image.seed)");
   add(render, "--region", written.region, "WxH+X+Y",
       "Renders this part only, X to the right and Y down from the top left; its pixels are those of the whole picture");
+
+  render.add_flag("--layers", written.layers,
+                  help("Gives an EXR further channels: points, normals, deformation, internodes, texture coordinates "
+                       "(image.layers)"));
 
   CLI::App& mesh = add_verb(app, written, "mesh", "Makes a closed, manifold triangle mesh of the surface.",
                             "Example: barkridge mesh poplar.toml -o poplar.ply --cell-size 0.01");
@@ -172,6 +176,7 @@ Verb interpret_render(const Written& written) {
   }
   add_override(arguments, "--spp", "image.samples_per_pixel", written.samples);
   add_override(arguments, "--seed", "image.seed", written.seed);
+  if (written.layers) arguments.overrides.push_back({"image.layers", "true", "--layers"});
   if (!written.region.empty()) {
     arguments.region_origin = "--region " + written.region;
     const auto region = integers_between(written.region, "x++");

@@ -47,13 +47,18 @@ PathTracer::Surface PathTracer::on_solid(const Ray& ray, const Hit& hit, const F
   return surface;
 }
 
-std::optional<PathTracer::Surface> PathTracer::find_surface(const Ray& ray, const Footprint& footprint,
-                                                            bool meets_solid) const {
-  double t_ground = std::numeric_limits<double>::infinity();
+// Along the ray; infinite where it does not meet the ground.
+double PathTracer::ground_distance(const Ray& ray) const {
   if (scene_.ground.enabled && ray.direction.y != 0) {
     const double t = (scene_.ground.height - ray.origin.y) / ray.direction.y;
-    if (t > 0) t_ground = t;
+    if (t > 0) return t;
   }
+  return std::numeric_limits<double>::infinity();
+}
+
+std::optional<PathTracer::Surface> PathTracer::find_surface(const Ray& ray, const Footprint& footprint,
+                                                            bool meets_solid) const {
+  const double t_ground = ground_distance(ray);
   if (const std::optional<Hit> hit = meets_solid ? tracer_.first_hit(ray, 0, t_ground) : std::nullopt) {
     return on_solid(ray, *hit, footprint);
   }

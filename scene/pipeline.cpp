@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "bark/dress_mesh.h"
+#include "bark/plant_layers.h"
 #include "base/error.h"
 #include "base/version.h"
 #include "mesh/write.h"
@@ -50,6 +51,14 @@ TextureMapping texture_mapping(const TextureSize& size, const Model& model) {
   mapping.height = size.height.value_or(mapping.width);
   mapping.followed_radius = size.follows_radius ? thickest : 0;
   return mapping;
+}
+
+std::shared_ptr<const SurfaceShader> bark_shader(const Scene& scene, const Model& model) {
+  ImageBark image;
+  if (scene.bark.kind == BarkKind::kImage) {
+    image = {open_texture(scene.bark.image), texture_mapping(scene.texture, model)};
+  }
+  return make_bark_shader(model.tree, model.skeleton, model.primitives, scene.material, scene.bark, image);
 }
 
 }  // namespace
@@ -122,7 +131,7 @@ double cell_size(const Scene& scene, const Model& model) {
 
 Mesh make_dressed(Mesh mesh, const Scene& scene, const Model& model) {
   if (!scene.mesh_attributes || mesh.triangles.empty()) return mesh;
-  const auto shader = make_bark_shader(model.tree, model.skeleton, model.primitives, scene.material, scene.bark);
+  const auto shader = bark_shader(scene, model);
   DressOptions options;
   options.texture = texture_mapping(scene.texture, model);
   options.shader = shader.get();
@@ -142,7 +151,11 @@ RenderScene make_render_scene(const Scene& scene, const Model& model, const Fiel
   look.sky = scene.sky;
   look.ground = scene.ground;
   look.material = scene.material;
-  look.shader = make_bark_shader(model.tree, model.skeleton, model.primitives, scene.material, scene.bark);
+  look.shader = bark_shader(scene, model);
+  if (scene.image_layers) {
+    look.layers =
+        make_plant_layers(model.tree, model.skeleton, model.primitives, texture_mapping(scene.texture, model));
+  }
   return look;
 }
 

@@ -76,6 +76,7 @@ struct Scene {
   Material material;
   BarkOptions bark;
   RenderOptions image;
+  bool image_layers = false;
   /// Edge length of a mesh's sampling cells; without it `default_cell_size`.
   std::optional<double> cell_size;
   /// Most triangles of a mesh; without it as many as the machine's memory holds.

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "base/output_file.h"
 #include "scene/scene_keys.h"
 
 namespace barkridge {
@@ -59,7 +60,9 @@ void add_skeleton(Sha256& hash, const Skeleton& skeleton) {
 }
 
 bool is_seen(std::string_view key) {
-  for (const std::string_view section : {"junction.", "bend.", "camera.", "sun.", "sky.", "ground.", "material.", "bark.", "wood."}) {
+  if (key == "bark.image") return false;  // what stands there is
+  for (const std::string_view section :
+       {"junction.", "bend.", "camera.", "sun.", "sky.", "ground.", "material.", "bark.", "wood.", "texture."}) {
     if (key.starts_with(section)) return true;
   }
   return false;
@@ -73,6 +76,7 @@ std::string scene_hash(const Scene& scene, const Model& model) {
   for (const SceneKey& key : scene_keys()) {
     if (is_seen(key.name)) hash.add(fmt::format("{} = {}\n", key.name, key.value(scene)));
   }
+  if (scene.bark.kind == BarkKind::kImage) hash.add(read_file(scene.bark.image));
   if (scene.model.kind == ModelSource::Kind::kTree) {
     hash.add(to_string(model.tree));
   } else {

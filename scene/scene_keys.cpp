@@ -397,15 +397,27 @@ void add_surroundings_keys(Keys& keys) {
 
 void add_bark_keys(Keys& keys) {
   keys.push_back(choice<BarkKind>(
-      "bark.kind", {{BarkKind::kPlain, "plain"}, {BarkKind::kEven, "even"}, {BarkKind::kPoplar, "poplar"}},
+      "bark.kind",
+      {{BarkKind::kPlain, "plain"},
+       {BarkKind::kEven, "even"},
+       {BarkKind::kPoplar, "poplar"},
+       {BarkKind::kImage, "image"}},
       [](auto& s) -> auto& { return s.bark.kind; },
-      "One material everywhere; or the same with dark ridges and wood on cuts; or a poplar's bark."));
+      "One material everywhere; or the same with dark ridges and wood on cuts; or a poplar's bark; or an image."));
   keys.push_back(number(
       "bark.scale", above(0), [](auto& s) -> auto& { return s.bark.scale; },
       "Width of a furrowed ridge of bark. Left out, a fifth of the thickest branch's radius."));
   keys.push_back(number(
       "bark.furrowed_radius", above(0), [](auto& s) -> auto& { return s.bark.furrowed_radius; },
       "Radius of branches that are half smooth, half furrowed. Left out, half the thickest branch's."));
+  keys.push_back({"bark.image", "the path of an image", "The image of image bark.",
+                  [](Scene& scene, const Setting& setting) {
+                    const auto* text = std::get_if<std::string>(&setting.value);
+                    if (!text || text->empty()) return false;
+                    scene.bark.image = *text;
+                    return true;
+                  },
+                  [](const Scene& scene) { return scene.bark.image; }});
   keys.push_back(number(
       "bark.bump", at_least(0), [](auto& s) -> auto& { return s.bark.bump; },
       "Factor of the height by which the pattern turns the surface's normals."));
@@ -442,6 +454,9 @@ void add_texture_keys(Keys& keys) {
 }
 
 void add_image_keys(Keys& keys) {
+  keys.push_back(flag(
+      "image.layers", [](auto& s) -> auto& { return s.image_layers; },
+      "Whether an EXR has further channels: points, normals, deformation, internodes, texture coordinates."));
   keys.push_back(integer(
       "image.width", 1, 65536, [](auto& s) -> auto& { return s.image.width; }, "Pixels across."));
   keys.push_back(integer(
