@@ -40,7 +40,8 @@ class PathTracer {
     Vec3 start;   // where secondary rays leave
     Vec3 normal;  // on the viewer's side
     Scattering scattering;
-    double t;  // along the ray
+    double t;   // along the ray
+    Vec3 side;  // the normal without bumps: no light comes from beyond
     bool is_ground = false;
     double haze = 0;  // share of the background in front of it
   };
