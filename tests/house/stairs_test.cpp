@@ -21,8 +21,9 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
     {"subdivision", {"base", "mesh", "lsystem/skeleton.h"}},
     {"polygonize", {"base", "mesh", "blobtree/field.h"}},
     {"raytrace", {"base", "mesh", "blobtree/field.h"}},
-    {"bark", {"base", "mesh", "blobtree", "lsystem/skeleton.h", "raytrace/image_texture.h",
-      "raytrace/surface_layers.h", "raytrace/surface_shader.h"}},
+    {"bark",
+     {"base", "mesh", "blobtree", "lsystem/skeleton.h", "raytrace/image_texture.h", "raytrace/surface_layers.h",
+      "raytrace/surface_shader.h"}},
     {"scene", {"base", "mesh", "lsystem", "blobtree", "subdivision", "polygonize", "raytrace", "bark"}},
     {"cli", {"base", "mesh", "lsystem", "blobtree", "subdivision", "polygonize", "raytrace", "bark", "scene"}},
 };
