@@ -18,27 +18,38 @@ struct Furrowed {
   double light = 1;  // how much of the ridges' colour is left
 };
 
+// How much there is of a line around the places where a noise is zero: 1 in its middle, 0 from `width` on to both
+// sides, across the branch. The noise over its slope, which counts as the same nearby, is about the distance. Where the
+// noise's zero comes to lie along the surface, which would make a blot, the line ends.
+Graded line_at_zero(const Vec3& p, const Vec3& scale, double width, std::uint64_t seed) {
+  const Graded noise = gradient_noise(p, scale, seed);
+  const double slope = std::max(std::hypot(noise.slope.x, noise.slope.z), 0.45 * scale.x);
+  const double distance = std::hypot(p.x, p.z);
+  const double around = distance > 0 ? std::abs(noise.slope.x * p.z - noise.slope.z * p.x) / distance : slope;
+  const double crosses = smooth_step(0.35, 0.75, around / slope).value;
+  return Graded(crosses) * (Graded(1) - smooth_step(0.12 * width, width, abs(noise) / slope));
+}
+
 // Furrows are where a noise, drawn out along the branch, is zero: lines that part and meet again around long ridges.
 Furrowed furrowed(const Vec3& p, double age, double footprint) {
-  const Vec3 drawn(1, 0.17, 1);
   // Ridges wander to and fro, and neighbours together.
-  const Vec3 wander(0.5 * gradient_noise(p, {0.8, 0.35, 0.8}, kWander).value, 0,
-                    0.5 * gradient_noise(p, {0.8, 0.35, 0.8}, kWander2).value);
+  const Vec3 wander(0.45 * gradient_noise(p, {0.7, 0.3, 0.7}, kWander).value, 0,
+                    0.45 * gradient_noise(p, {0.7, 0.3, 0.7}, kWander2).value);
   const Vec3 q = p + wander;
-  const double coarse = seen_share(0.45, footprint), fine = seen_share(0.2, footprint);
-  const Graded main = abs(gradient_noise(q, 0.85 * drawn, kFurrows));
-  const Graded cracks = abs(gradient_noise(q, {1.9, 0.5, 1.9}, kCracks));
-  const Graded breaks = abs(gradient_noise(q, {0.7, 0.9, 0.7}, kBreaks));
-  const Graded grain = layered_noise(p, {5, 1.6, 5}, 3, footprint, kGrain);
+  const double coarse = seen_share(0.45, footprint), fine = seen_share(0.15, footprint);
+  const Graded breaks = abs(gradient_noise(q, {0.9, 1.1, 0.9}, kBreaks));
+  const Graded grain = layered_noise(p, {5, 1.3, 5}, 3, footprint, kGrain);
 
-  const Graded ridge = smooth_step(0, 0.08 + 0.14 * age, main);
-  const Graded crack = smooth_step(0, 0.1, cracks), across = smooth_step(0, 0.05, breaks);
-  constexpr double kMeanRidge = 0.72, kMeanCrack = 0.8;
-  const Graded top = Graded(0.7) + Graded(0.2) * mix(kMeanCrack, crack, fine) + Graded(0.1) * mix(0.9, across, fine);
+  const Graded ridge = Graded(1) - line_at_zero(q, {1.05, 0.13, 1.05}, 0.13 + 0.17 * age, kFurrows);
+  const Graded crack = Graded(1) - line_at_zero(q, {2.3, 0.4, 2.3}, 0.09, kCracks);
+  const Graded across = smooth_step(0, 0.05, breaks);
+  constexpr double kMeanRidge = 0.66, kMeanCrack = 0.8, kMeanAcross = 0.9;
+  const Graded top =
+      Graded(0.72) + Graded(0.2) * mix(kMeanCrack, crack, fine) + Graded(0.08) * mix(kMeanAcross, across, fine);
   Furrowed result;
-  result.height = mix(kMeanRidge, ridge * top, coarse) + Graded(0.13) * grain;
-  const double hollow = glm::mix(kMeanRidge, ridge.value * (0.6 + 0.3 * crack.value + 0.1 * across.value), coarse);
-  result.light = glm::clamp(0.18 + 0.82 * hollow + 0.5 * grain.value, 0.1, 1.3);
+  result.height = mix(kMeanRidge, ridge * top, coarse) + Graded(0.1) * grain;
+  const double hollow = glm::mix(kMeanRidge, ridge.value * (0.62 + 0.3 * crack.value + 0.08 * across.value), coarse);
+  result.light = glm::clamp(0.16 + 0.84 * hollow + 0.45 * grain.value, 0.1, 1.3);
   return result;
 }
 

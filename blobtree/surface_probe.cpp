@@ -269,6 +269,12 @@ class Walk {
 
 }  // namespace
 
+const SurfaceShare* largest_share(const SurfaceSample& sample) {
+  const auto largest = std::max_element(sample.shares.begin(), sample.shares.end(),
+                                        [](const auto& a, const auto& b) { return a.weight < b.weight; });
+  return largest == sample.shares.end() ? nullptr : &*largest;
+}
+
 struct SurfaceProbe::Data {
   std::shared_ptr<const FieldModel> model;
   std::vector<Primitive> primitives;  // in the model's order

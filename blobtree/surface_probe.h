@@ -32,6 +32,9 @@ struct SurfaceSample {
   NodeId cutter = 0;
 };
 
+/// The largest of the shares, the first of equal ones; null where there is none.
+const SurfaceShare* largest_share(const SurfaceSample& sample);
+
 /// Answers for all points of a tree's surface, from those primitives alone whose supports hold the point. Immutable;
 /// may be asked from many threads at once.
 class SurfaceProbe {

@@ -64,7 +64,7 @@ struct Written {
   std::string folder;
   std::size_t most_internodes = StudyArguments{}.most_internodes;
   int threads = 0, turns = StudyArguments{}.turns;
-  bool quiet = false, json = false;
+  bool quiet = false, json = false, attributes = false, layers = false;
 };
 
 template <typename Value>
@@ -122,6 +122,10 @@ void add_verbs(CLI::App& app, Written& written) {
   add(render, "--region", written.region, "WxH+X+Y",
       "Renders this part only, X to the right and Y down from the top left; its pixels are those of the whole picture");
 
+  render.add_flag("--layers", written.layers,
+                  help("Gives an EXR further channels: points, normals, deformation, internodes, texture coordinates "
+                       "(image.layers)"));
+
   CLI::App& mesh = add_verb(app, written, "mesh", "Makes a triangle mesh of the surface, closed and manifold.",
                             "Example: barkridge mesh poplar.toml -o poplar.ply --cell-size 0.01");
   add_output_options(mesh, written,
@@ -134,6 +138,10 @@ void add_verbs(CLI::App& app, Written& written) {
   add(mesh, "--cell-size", written.cell_size, "H",
       "Edge length of the sampling cells in scene units (mesh.cell_size); by default half the thinnest branch's "
       "radius");
+
+  mesh.add_flag("--attributes", written.attributes,
+                help("Adds texture coordinates, attributes of the vertices and, where bark is not plain, colours "
+                     "(mesh.attributes)"));
 
   CLI::App& grow =
       add_verb(app, written, "grow", "Derives an L-system and prints its string.",
@@ -217,6 +225,7 @@ Verb interpret_render(const Written& written) {
   }
   add_override(arguments, "--spp", "image.samples_per_pixel", written.samples);
   add_override(arguments, "--seed", "image.seed", written.seed);
+  if (written.layers) arguments.overrides.push_back({"image.layers", "true", "--layers"});
   if (!written.region.empty()) {
     arguments.region_origin = "--region " + written.region;
     const auto region = integers_between(written.region, "x++");
@@ -237,6 +246,7 @@ Verb interpret_verb(const std::string& name, const Written& written) {
     if (arguments.outputs.empty() && arguments.statistics.empty()) refuse("mesh", "-o FILE, or --statistics FILE");
     if (arguments.frames && !arguments.statistics.empty()) refuse("--statistics", "no --frames beside it");
     add_override(arguments, "--cell-size", "mesh.cell_size", written.cell_size);
+    if (written.attributes) arguments.overrides.push_back({"mesh.attributes", "true", "--attributes"});
     return arguments;
   }
   if (name == "grow") {

@@ -43,6 +43,7 @@ Made make(const Scene& scene, ProgressBar& bar, const std::string& title, StageC
     const std::shared_ptr<const Field> field = compile(made.model.tree);
     statistics.build_seconds = clock.lap();
     made.mesh = implicit_mesh(scene, made.model, *field, limit, bar.stage(title + "meshing"));
+    made.mesh = make_dressed(std::move(made.mesh), scene, made.model);
   }
   statistics.surface_seconds = clock.lap();
   statistics.internodes = made.model.skeleton.internodes.size();

@@ -31,17 +31,26 @@ void check_region(const RenderArguments& arguments, const RenderOptions& picture
 }
 
 // A picture that the memory cannot hold would be killed by the system after hours, without a word.
-void check_memory(const RenderOptions& picture) {
-  constexpr double kBytesPerPixel = 48;
+void check_memory(const RenderOptions& picture, bool has_layers) {
+  const double bytes_per_pixel = has_layers ? 160 : 48;
   const bool whole = picture.region.width == 0;
   const double pixels = static_cast<double>(whole ? picture.width : picture.region.width) *
                         static_cast<double>(whole ? picture.height : picture.region.height);
-  const double needed = kBytesPerPixel * pixels, present = static_cast<double>(machine_memory());
+  const double needed = bytes_per_pixel * pixels, present = static_cast<double>(machine_memory());
   if (needed > present) {
     throw std::runtime_error(fmt::format(
         "the picture takes {:.1f} GB of memory, and this machine has {:.1f} GB; render it in parts with --region",
         needed / 1e9, present / 1e9));
   }
+}
+
+// Layers that nothing holds would be made for nothing.
+void check_layers(const RenderArguments& arguments, const Scene& scene) {
+  if (!scene.image_layers || arguments.outputs.empty()) return;
+  for (const std::string& output : arguments.outputs) {
+    if (can_hold_layers(output)) return;
+  }
+  throw InputError({arguments.outputs.front(), 0, 0, ""}, "expected an EXR for the layers (image.layers)");
 }
 
 }  // namespace
@@ -52,7 +61,8 @@ void run(const RenderArguments& arguments) {
   check_region(arguments, scene.image);
   RenderOptions options = scene.image;
   options.region = arguments.region;
-  check_memory(options);
+  check_memory(options, scene.image_layers);
+  check_layers(arguments, scene);
   const std::vector<Frame> frames = frames_of(arguments.frames, arguments.outputs, scene.sequence);
   for (const Frame& frame : frames) {
     for (const std::string& output : frame.outputs) check_writable(output);

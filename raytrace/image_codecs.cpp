@@ -38,9 +38,29 @@ class SinkProxy : public OIIO::Filesystem::IOProxy {
   ImageSink& sink_;
 };
 
+// Colours and layers pixel by pixel.
+std::vector<float> joined(const Image& image) {
+  const std::size_t layers = image.layer_names.size();
+  std::vector<float> all;
+  all.reserve(image.rgba.size() + image.layers.size());
+  for (std::size_t pixel = 0; 4 * pixel < image.rgba.size(); ++pixel) {
+    const float *color = &image.rgba[4 * pixel], *layer = &image.layers[layers * pixel];
+    all.insert(all.end(), color, color + 4);
+    all.insert(all.end(), layer, layer + layers);
+  }
+  return all;
+}
+
 void encode(const Image& image, const std::string& path, const ImageMetadata& metadata, ImageSink& sink) {
   const PixelRegion& region = image.region;
-  OIIO::ImageSpec spec(region.width, region.height, 4, OIIO::TypeDesc::HALF);
+  const std::size_t layers = image.layer_names.size();
+  OIIO::ImageSpec spec(region.width, region.height, 4 + static_cast<int>(layers), OIIO::TypeDesc::HALF);
+  if (layers > 0) {
+    spec.channelformats.assign(4, OIIO::TypeDesc::HALF);
+    spec.channelformats.resize(4 + layers, OIIO::TypeDesc::FLOAT);
+    spec.channelnames.insert(spec.channelnames.begin() + 4, image.layer_names.begin(), image.layer_names.end());
+    spec.channelnames.resize(4 + layers);
+  }
   spec.x = region.x;
   spec.y = region.y;
   spec.full_width = image.full_width;
@@ -56,8 +76,9 @@ void encode(const Image& image, const std::string& path, const ImageMetadata& me
   SinkProxy proxy(sink);
   const auto output = OIIO::ImageOutput::create("openexr", &proxy);
   if (!output) throw std::runtime_error(OIIO::geterror());
-  const bool done =
-      output->open(path, spec) && output->write_image(OIIO::TypeDesc::FLOAT, image.rgba.data()) && output->close();
+  const bool done = output->open(path, spec) &&
+                    output->write_image(OIIO::TypeDesc::FLOAT, layers > 0 ? joined(image).data() : image.rgba.data()) &&
+                    output->close();
   if (!done) throw std::runtime_error(output->geterror());
 }
 

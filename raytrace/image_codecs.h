@@ -6,6 +6,7 @@
 #include <string>
 
 #include "raytrace/image_file.h"
+#include "raytrace/image_texture.h"
 
 namespace barkridge {
 
@@ -24,9 +25,12 @@ class ImageSink {
 
 enum class CodecStatus { kDone, kFailed, kOutOfMemory };
 
-/// The module's only function: writes the bytes of an EXR into the sink. The path is for messages; `reason` is set
+/// Writes the bytes of an EXR into the sink. The path is for messages; `reason` is set
 /// where the status is `kFailed`.
 extern "C" CodecStatus barkridge_encode_exr(const Image& image, const std::string& path, const ImageMetadata& metadata,
                                             ImageSink& sink, std::string& reason) noexcept;
+
+/// Opens an image; null, and a reason, if that fails. The caller deletes it.
+extern "C" ImageTexture* barkridge_open_texture(const std::string& path, std::string& reason) noexcept;
 
 }  // namespace barkridge

@@ -1,7 +1,5 @@
 #include "raytrace/image_file.h"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -11,6 +9,7 @@
 
 #include "base/output_file.h"
 #include "raytrace/image_codecs.h"
+#include "raytrace/image_module.h"
 #include "raytrace/png_file.h"
 
 namespace barkridge {
@@ -19,15 +18,7 @@ namespace {
 
 using EncodeExr = decltype(&barkridge_encode_exr);
 
-// Never closed again: OpenImageIO's libraries are not made for that.
-EncodeExr load_codecs() {
-  void* const module = ::dlopen(BARKRIDGE_IMAGE_MODULE, RTLD_NOW | RTLD_LOCAL);
-  void* const function = module == nullptr ? nullptr : ::dlsym(module, "barkridge_encode_exr");
-  if (function == nullptr) {
-    throw IoError(BARKRIDGE_IMAGE_MODULE, std::string("is needed to write EXR and cannot be loaded: ") + ::dlerror());
-  }
-  return reinterpret_cast<EncodeExr>(function);
-}
+EncodeExr load_codecs() { return reinterpret_cast<EncodeExr>(image_module_function("barkridge_encode_exr")); }
 
 const std::shared_future<EncodeExr>& codecs() {
   static const std::shared_future<EncodeExr> loaded = std::async(std::launch::async, load_codecs).share();
@@ -77,6 +68,8 @@ void check_image_path(const std::string& path) {
                      (extension.empty() ? std::string() : ", not in " + extension));
   }
 }
+
+bool can_hold_layers(const std::string& path) { return is_exr(path); }
 
 void prepare_image_writing(const std::vector<std::string>& paths) {
   if (std::none_of(paths.begin(), paths.end(), is_exr)) return;

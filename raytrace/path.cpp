@@ -35,7 +35,7 @@ PathTracer::PathTracer(const Tracer& tracer, const RenderScene& scene, const Foo
 }
 
 PathTracer::Surface PathTracer::on_solid(const Ray& ray, const Hit& hit, const Footprint& footprint) const {
-  Surface surface{hit.outside_point(), hit.normal, bark_, hit.t};
+  Surface surface{hit.outside_point(), hit.normal, bark_, hit.t, hit.normal};
   if (scene_.shader) {
     const ShadedPoint shaded = scene_.shader->shade(hit.point, hit.normal, footprint.at(hit.t));
     surface.normal = shaded.normal;
@@ -44,16 +44,22 @@ PathTracer::Surface PathTracer::on_solid(const Ray& ray, const Hit& hit, const F
   // Rounding and bumps may turn a grazed normal away from the ray; bend it back.
   const double facing = -glm::dot(surface.normal, ray.direction);
   if (facing < 1e-4) surface.normal = glm::normalize(surface.normal - (1e-4 - facing) * ray.direction);
+  if (!scene_.shader) surface.side = surface.normal;
   return surface;
+}
+
+// Along the ray; infinite where it does not meet the ground.
+double PathTracer::ground_distance(const Ray& ray) const {
+  if (scene_.ground.enabled && ray.direction.y != 0) {
+    const double t = (scene_.ground.height - ray.origin.y) / ray.direction.y;
+    if (t > 0) return t;
+  }
+  return std::numeric_limits<double>::infinity();
 }
 
 std::optional<PathTracer::Surface> PathTracer::find_surface(const Ray& ray, const Footprint& footprint,
                                                             bool meets_solid) const {
-  double t_ground = std::numeric_limits<double>::infinity();
-  if (scene_.ground.enabled && ray.direction.y != 0) {
-    const double t = (scene_.ground.height - ray.origin.y) / ray.direction.y;
-    if (t > 0) t_ground = t;
-  }
+  const double t_ground = ground_distance(ray);
   if (const std::optional<Hit> hit = meets_solid ? tracer_.first_hit(ray, 0, t_ground) : std::nullopt) {
     return on_solid(ray, *hit, footprint);
   }
@@ -61,8 +67,8 @@ std::optional<PathTracer::Surface> PathTracer::find_surface(const Ray& ray, cons
   Vec3 point = ray.at(t_ground);
   point.y = scene_.ground.height;
   const double distance = std::hypot(point.x - center_.x, point.z - center_.z) / haze_radius_;
-  return Surface{point, {0, ray.direction.y < 0 ? 1 : -1, 0}, ground_, t_ground,
-                 true,  1 - std::exp(-distance * distance)};
+  const Vec3 up(0, ray.direction.y < 0 ? 1 : -1, 0);
+  return Surface{point, up, ground_, t_ground, up, true, 1 - std::exp(-distance * distance)};
 }
 
 // Whether the sun is seen, past the solid and the ground.
@@ -85,7 +91,7 @@ Color PathTracer::from_surroundings(const Surface& surface, const Vec3& view, co
   const double choice = surface.scattering.has_lobe() ? sampler.pair(sample, Dimension::kLobe).x : 0;
   const std::optional<ScatteredDirection> scattered =
       surface.scattering.sample(surface.normal, view, sampler.pair(sample, Dimension::kBounce), choice);
-  if (!scattered) return Color(0);
+  if (!scattered || glm::dot(scattered->direction, surface.side) <= 0) return Color(0);
   const Color background = sky_radiance(scene_.sky, scattered->direction);
   const Footprint wide{footprint_.at(surface.t), kScatteredSpread};
   std::optional<Surface> second = find_surface({surface.start, scattered->direction}, wide, true);

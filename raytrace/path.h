@@ -29,6 +29,9 @@ class PathTracer {
   /// that the ray itself meets nothing of the solid.
   Radiance along(const Ray& ray, const PixelSampler& sampler, int sample, bool meets_solid) const;
 
+  /// Where a ray first meets the solid, if nothing stands before it.
+  std::optional<Hit> solid_along(const Ray& ray) const { return tracer_.first_hit(ray, 0, ground_distance(ray)); }
+
   /// What arrives along all rays that meet nothing of the solid, if that is the same for all.
   std::optional<Radiance> plain_background() const;
 
@@ -37,11 +40,13 @@ class PathTracer {
     Vec3 start;   // where secondary rays leave
     Vec3 normal;  // on the viewer's side
     Scattering scattering;
-    double t;  // along the ray
+    double t;   // along the ray
+    Vec3 side;  // the normal without bumps: no light comes from beyond
     bool is_ground = false;
     double haze = 0;  // share of the background in front of it
   };
 
+  double ground_distance(const Ray& ray) const;
   std::optional<Surface> find_surface(const Ray& ray, const Footprint& footprint, bool meets_solid) const;
   Surface on_solid(const Ray& ray, const Hit& hit, const Footprint& footprint) const;
   Color from_sun(const Surface& surface, const Vec3& view, const glm::dvec2& u) const;

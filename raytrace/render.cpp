@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <mutex>
@@ -28,6 +29,9 @@ constexpr int kEdgeSamples = 16;
 // and the difference that makes neighbours unlike.
 constexpr double kNoiseGoal = 1.0 / 256;
 constexpr double kUnlike = 1.0 / 32;
+
+// The layers that every picture with layers has.
+constexpr std::array<const char*, 6> kOwnLayers{"P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z"};
 
 // What the samples of a pixel add up to, in their order.
 struct PixelSum {
@@ -63,7 +67,8 @@ class TileRenderer {
         path_(tracer, scene, camera_.footprint(), options.bounces),
         layout_(options.seed, options.width, options.height, options.samples_per_pixel),
         seen_(tracer, camera_, with_neighbours(region)),
-        plain_background_(path_.plain_background()) {}
+        plain_background_(path_.plain_background()),
+        layers_(scene.layers.get()) {}
 
   // Renders the pixels of `tile`, and the first samples of those around it, which decide about further ones.
   void render(const PixelRegion& tile, Image& image) const {
@@ -91,6 +96,7 @@ class TileRenderer {
           add_samples(x, y, 2 * sum.count, sum);
         }
         store(sum, x, y, image);
+        if (layers_) store_layers(x, y, image);
       }
     }
   }
@@ -121,10 +127,27 @@ class TileRenderer {
   // Importance sampling of the pixel filter, a tent one pixel to either side: a sample belongs to one pixel only.
   static double tent(double u) { return u < 0.5 ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 - 2 * u); }
 
-  static void store(const PixelSum& sum, int x, int y, Image& image) {
+  static std::size_t place_in(const Image& image, int x, int y) {
     const std::size_t row = static_cast<std::size_t>(y - image.region.y);
-    const std::size_t column = static_cast<std::size_t>(x - image.region.x);
-    float* pixel = &image.rgba[4 * (row * static_cast<std::size_t>(image.region.width) + column)];
+    return row * static_cast<std::size_t>(image.region.width) + static_cast<std::size_t>(x - image.region.x);
+  }
+
+  // Layers are not mixed over a pixel: the mean of two internodes' numbers is no internode's.
+  void store_layers(int x, int y, Image& image) const {
+    const std::optional<Hit> hit =
+        seen_.may_see(x, y) ? path_.solid_along(camera_.through(x + 0.5, y + 0.5)) : std::nullopt;
+    if (!hit) return;
+    const std::size_t count = image.layer_names.size();
+    const std::span<float> values = std::span(image.layers).subspan(count * place_in(image, x, y), count);
+    for (int axis = 0; axis < 3; ++axis) {
+      values[static_cast<std::size_t>(axis)] = static_cast<float>(hit->point[axis]);
+      values[static_cast<std::size_t>(axis) + 3] = static_cast<float>(hit->normal[axis]);
+    }
+    layers_->values(hit->point, values.subspan(kOwnLayers.size()));
+  }
+
+  static void store(const PixelSum& sum, int x, int y, Image& image) {
+    float* pixel = &image.rgba[4 * place_in(image, x, y)];
     for (int c = 0; c < 3; ++c) pixel[c] = static_cast<float>(sum.color[c] / sum.count);
     pixel[3] = static_cast<float>(sum.alpha / sum.count);
   }
@@ -135,6 +158,7 @@ class TileRenderer {
   SampleLayout layout_;
   SeenPixels seen_;
   std::optional<Radiance> plain_background_;
+  const SurfaceLayers* layers_;
 };
 
 // Tells how much is done, from one thread at a time.
@@ -157,10 +181,15 @@ class SharedProgress {
 
 Image render_traced(const Tracer& tracer, const RenderScene& scene, const RenderOptions& options) {
   Image image{options.width, options.height, options.region, {}};
+  if (scene.layers) {
+    image.layer_names.assign(kOwnLayers.begin(), kOwnLayers.end());
+    for (std::string& name : scene.layers->names()) image.layer_names.push_back(std::move(name));
+  }
   if (image.region.width == 0) image.region = {0, 0, options.width, options.height};
   const PixelRegion& region = image.region;
   const std::size_t pixels = static_cast<std::size_t>(region.width) * static_cast<std::size_t>(region.height);
   resize_large(image.rgba, 4 * pixels);
+  resize_large(image.layers, image.layer_names.size() * pixels);
 
   const TileRenderer renderer(tracer, scene, options, region);
   SharedProgress progress(options.progress, pixels);

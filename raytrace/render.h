@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "base/progress.h"
 #include "blobtree/field.h"
 #include "mesh/mesh.h"
+#include "raytrace/surface_layers.h"
 #include "raytrace/surface_shader.h"
 
 namespace barkridge {
@@ -59,6 +61,8 @@ struct RenderScene {
   Material material;
   /// Tells the solid's material instead, where there is one.
   std::shared_ptr<const SurfaceShader> shader = {};
+  /// What else the picture holds; without them no layers at all.
+  std::shared_ptr<const SurfaceLayers> layers = {};
 };
 
 /// A rectangle of pixels: x to the right, y down from the top.
@@ -89,6 +93,10 @@ struct Image {
   int full_width = 0, full_height = 0;
   PixelRegion region;
   std::vector<float> rgba;  ///< 4 * region.width * region.height
+  /// Further numbers of each pixel: of the solid where the ray through its middle meets it first, 0 where none does.
+  /// `P.X`, `P.Y`, `P.Z` are the point, `N.X`, `N.Y`, `N.Z` the field's normal; then come those of the scene's layers.
+  std::vector<std::string> layer_names = {};
+  std::vector<float> layers = {};  ///< layer_names.size() * region.width * region.height
 };
 
 /// Renders the solid of `field`. Every pixel is a function of field, scene, seed and its own place in the full picture:

@@ -163,6 +163,20 @@ void complete_model(const std::vector<Setting>& settings, const std::string& pat
   model.text = read_input(model.file, given->value_place, std::size_t{1} << 32);
 }
 
+// Makes the path of the bark's image one from the working directory, and looks whether there is something.
+void complete_bark(const std::vector<Setting>& settings, const std::string& path, Scene& scene) {
+  const Setting* given = find(settings, "bark.image");
+  if (scene.bark.kind == BarkKind::kImage && !given) {
+    throw InputError(place_of(settings, {"bark.kind"}, path), "bark.kind: image bark needs the key bark.image");
+  }
+  if (!given) return;
+  const bool from_override = given->value_place.line == 0 && given->value_place.file != "";
+  if (!from_override) scene.bark.image = (fs::path(path).parent_path() / scene.bark.image).string();
+  if (!fs::is_regular_file(scene.bark.image)) {
+    throw InputError(given->value_place, fmt::format("cannot read {}: there is no such file", scene.bark.image));
+  }
+}
+
 // Rules about several keys at once.
 void check_together(const std::vector<Setting>& settings, const std::string& path, Scene& scene) {
   ContactShape& contact = scene.tree.contact;
@@ -221,6 +235,7 @@ Scene load_scene(const std::string& path, std::span<const Override> overrides) {
   Scene scene;
   for (const Setting& setting : settings) apply(setting, scene);
   complete_model(settings, path, scene);
+  complete_bark(settings, path, scene);
   check_together(settings, path, scene);
   return scene;
 }

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 
+#include "bark/dress_mesh.h"
+#include "bark/plant_layers.h"
 #include "base/error.h"
 #include "base/version.h"
 #include "lsystem/lst.h"
@@ -31,6 +34,32 @@ auto naming_file(const std::string& file, Work work) {
     if (error.where().file.empty()) throw InputError({file, 0, 0, ""}, error.message());
     throw;
   }
+}
+
+// The radius of the thickest branch, or of what a tree written by hand has of a size.
+double thickest_radius(const Model& model) {
+  double thickest = 0;
+  for (const Internode& internode : model.skeleton.internodes) {
+    thickest = std::max({thickest, internode.base_radius, internode.tip_radius});
+  }
+  return thickest > 0 ? thickest : thinnest_radius(model.tree);
+}
+
+TextureMapping texture_mapping(const TextureSize& size, const Model& model) {
+  const double thickest = thickest_radius(model);
+  TextureMapping mapping;
+  mapping.width = size.width.value_or(2 * std::numbers::pi * thickest);
+  mapping.height = size.height.value_or(mapping.width);
+  mapping.followed_radius = size.follows_radius ? thickest : 0;
+  return mapping;
+}
+
+std::shared_ptr<const SurfaceShader> bark_shader(const Scene& scene, const Model& model) {
+  ImageBark image;
+  if (scene.bark.kind == BarkKind::kImage) {
+    image = {open_texture(scene.bark.image), texture_mapping(scene.texture, model)};
+  }
+  return make_bark_shader(model.tree, model.skeleton, model.primitives, scene.material, scene.bark, image);
 }
 
 }  // namespace
@@ -130,6 +159,16 @@ std::shared_ptr<const Field> framed_field(const Scene& scene, std::shared_ptr<co
   return compile(make_model(at_time(scene, scene.sequence.framed_time), listener).tree);
 }
 
+Mesh make_dressed(Mesh mesh, const Scene& scene, const Model& model) {
+  if (!scene.mesh_attributes || mesh.triangles.empty()) return mesh;
+  const auto shader = bark_shader(scene, model);
+  DressOptions options;
+  options.texture = texture_mapping(scene.texture, model);
+  options.shader = shader.get();
+  options.footprint = cell_size(scene, model);
+  return dressed(std::move(mesh), model.tree, model.skeleton, model.primitives, options);
+}
+
 RenderScene make_render_scene(const Scene& scene, const Model& model, const Field& field) {
   const double aspect = static_cast<double>(scene.image.width) / scene.image.height;
   RenderScene look;
@@ -143,7 +182,11 @@ RenderScene make_render_scene(const Scene& scene, const Model& model, const Fiel
   look.ground = scene.ground;
   look.ground.surrounded = field.support();
   look.material = scene.material;
-  look.shader = make_bark_shader(model.tree, model.skeleton, model.primitives, scene.material, scene.bark);
+  look.shader = bark_shader(scene, model);
+  if (scene.image_layers) {
+    look.layers =
+        make_plant_layers(model.tree, model.skeleton, model.primitives, texture_mapping(scene.texture, model));
+  }
   return look;
 }
 

@@ -78,6 +78,9 @@ double cell_size(const Scene& scene, const Model& model);
 std::shared_ptr<const Field> framed_field(const Scene& scene, std::shared_ptr<const Field> field,
                                           const Listener& listener = {});
 
+/// The mesh with what the scene's `mesh.attributes` asks for; the mesh itself where it does not.
+Mesh make_dressed(Mesh mesh, const Scene& scene, const Model& model);
+
 /// The look of the scene, with everything filled in that it leaves to the program: the camera for the solid of `field`,
 /// which need not be the one that is rendered, the bark for the model that is.
 RenderScene make_render_scene(const Scene& scene, const Model& model, const Field& field);

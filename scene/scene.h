@@ -80,6 +80,12 @@ struct SceneSequence {
   std::optional<double> framed_time;
 };
 
+/// Of the bark that an image covers; a width left out is the thickest branch's circumference, a height the width.
+struct TextureSize {
+  std::optional<double> width, height;
+  bool follows_radius = false;
+};
+
 struct Scene {
   ModelSource model;
   DeriveOptions derivation;
@@ -96,10 +102,14 @@ struct Scene {
   Material material;
   BarkOptions bark;
   RenderOptions image;
+  bool image_layers = false;
   /// Edge length of a mesh's sampling cells; without it `default_cell_size`.
   std::optional<double> cell_size;
   /// Most triangles of a mesh; without it as many as the machine's memory holds.
   std::optional<std::size_t> max_triangles;
+  /// Whether meshes get texture coordinates, attributes and, where bark is not plain, colours.
+  bool mesh_attributes = false;
+  TextureSize texture;
 };
 
 /// A value for a key of the scene from outside of its file.

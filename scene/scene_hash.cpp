@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "base/output_file.h"
 #include "scene/scene_keys.h"
 
 namespace barkridge {
@@ -59,8 +60,9 @@ void add_skeleton(Sha256& hash, const Skeleton& skeleton) {
 }
 
 bool is_seen(std::string_view key) {
-  for (const std::string_view section :
-       {"surface.", "junction.", "bend.", "camera.", "sun.", "sky.", "ground.", "material.", "bark.", "wood."}) {
+  if (key == "bark.image") return false;  // what stands there is
+  for (const std::string_view section : {"surface.", "junction.", "bend.", "camera.", "sun.", "sky.", "ground.",
+                                         "material.", "bark.", "wood.", "texture."}) {
     if (key.starts_with(section)) return true;
   }
   return false;
@@ -75,6 +77,7 @@ std::string scene_hash(const Scene& scene, const Model& model) {
     const bool fits_camera = scene.turtle.growth.time && key.name == "growth.framed_time";
     if (is_seen(key.name) || fits_camera) hash.add(fmt::format("{} = {}\n", key.name, key.value(scene)));
   }
+  if (scene.bark.kind == BarkKind::kImage) hash.add(read_file(scene.bark.image));
   if (scene.model.kind == ModelSource::Kind::kTree) {
     hash.add(to_string(model.tree));
   } else {

@@ -367,6 +367,9 @@ void add_surface_keys(Keys& keys) {
   keys.push_back(integer(
       "mesh.max_triangles", 1, kMost, [](auto& s) -> auto& { return s.max_triangles; },
       "Most triangles. Left out, as many as the machine's memory holds."));
+  keys.push_back(flag(
+      "mesh.attributes", [](auto& s) -> auto& { return s.mesh_attributes; },
+      "Whether meshes get texture coordinates, attributes and, where bark is not plain, colours."));
 }
 
 void add_camera_keys(Keys& keys) {
@@ -445,15 +448,27 @@ void add_surroundings_keys(Keys& keys) {
 
 void add_bark_keys(Keys& keys) {
   keys.push_back(choice<BarkKind>(
-      "bark.kind", {{BarkKind::kPlain, "plain"}, {BarkKind::kEven, "even"}, {BarkKind::kPoplar, "poplar"}},
+      "bark.kind",
+      {{BarkKind::kPlain, "plain"},
+       {BarkKind::kEven, "even"},
+       {BarkKind::kPoplar, "poplar"},
+       {BarkKind::kImage, "image"}},
       [](auto& s) -> auto& { return s.bark.kind; },
-      "One material everywhere; or the same with dark ridges and wood on cuts; or a poplar's bark."));
+      "One material everywhere; or the same with dark ridges and wood on cuts; or a poplar's bark; or an image."));
   keys.push_back(number(
       "bark.scale", above(0), [](auto& s) -> auto& { return s.bark.scale; },
       "Width of a furrowed ridge of bark. Left out, a fifth of the thickest branch's radius."));
   keys.push_back(number(
       "bark.furrowed_radius", above(0), [](auto& s) -> auto& { return s.bark.furrowed_radius; },
       "Radius of branches that are half smooth, half furrowed. Left out, half the thickest branch's."));
+  keys.push_back({"bark.image", "the path of an image", "The image of image bark.",
+                  [](Scene& scene, const Setting& setting) {
+                    const auto* text = std::get_if<std::string>(&setting.value);
+                    if (!text || text->empty()) return false;
+                    scene.bark.image = *text;
+                    return true;
+                  },
+                  [](const Scene& scene) { return scene.bark.image; }});
   keys.push_back(number(
       "bark.bump", at_least(0), [](auto& s) -> auto& { return s.bark.bump; },
       "Factor of the height by which the pattern turns the surface's normals."));
@@ -477,7 +492,22 @@ void add_bark_keys(Keys& keys) {
       "Width of a growth ring. Left out, a fortieth of the thickest branch's radius."));
 }
 
+void add_texture_keys(Keys& keys) {
+  keys.push_back(number(
+      "texture.width", above(0), [](auto& s) -> auto& { return s.texture.width; },
+      "Width of the bark that an image covers. Left out, the thickest branch's circumference."));
+  keys.push_back(number(
+      "texture.height", above(0), [](auto& s) -> auto& { return s.texture.height; },
+      "Height of the bark that it covers. Left out, the width."));
+  keys.push_back(flag(
+      "texture.follows_radius", [](auto& s) -> auto& { return s.texture.follows_radius; },
+      "Whether it shrinks with the branch, instead of keeping its size and going fewer times around."));
+}
+
 void add_image_keys(Keys& keys) {
+  keys.push_back(flag(
+      "image.layers", [](auto& s) -> auto& { return s.image_layers; },
+      "Whether an EXR has further channels: points, normals, deformation, internodes, texture coordinates."));
   keys.push_back(integer(
       "image.width", 1, 65536, [](auto& s) -> auto& { return s.image.width; }, "Pixels across."));
   keys.push_back(integer(
@@ -504,6 +534,7 @@ Keys make_keys() {
   add_light_keys(keys);
   add_surroundings_keys(keys);
   add_bark_keys(keys);
+  add_texture_keys(keys);
   add_image_keys(keys);
   return keys;
 }

@@ -309,3 +309,17 @@ TEST_CASE("the camera cannot stand where it looks") {
   CHECK_THAT(error_of(kModel + "[camera]\nposition = [1, 2, 3]\ntarget = [1, 2, 3]\n").what(),
              Contains("a.toml:4:10: camera.target"));
 }
+
+TEST_CASE("a bark's image is found from the scene's folder, and from the working directory in an override") {
+  const ScratchFolder folder;
+  folder.write("bark.png", "not looked into");
+  folder.write("a.toml", "model.tree = 'cone()'\n[bark]\nkind = \"image\"\nimage = \"bark.png\"\n");
+  CHECK(load_scene(folder.path("a.toml")).bark.image == folder.path("bark.png"));
+  const std::vector<Override> overrides = {parse_override("bark.image=" + folder.path("bark.png"))};
+  CHECK(load_scene(folder.path("a.toml"), overrides).bark.image == folder.path("bark.png"));
+
+  folder.write("b.toml", "model.tree = 'cone()'\n[bark]\nkind = \"image\"\nimage = \"none.png\"\n");
+  CHECK_THROWS_WITH(load_scene(folder.path("b.toml")), Contains("b.toml:4:") && Contains("none.png"));
+  folder.write("c.toml", "model.tree = 'cone()'\n[bark]\nkind = \"image\"\n");
+  CHECK_THROWS_WITH(load_scene(folder.path("c.toml")), Contains("c.toml:3:") && Contains("bark.image"));
+}

@@ -54,9 +54,17 @@ TEST_CASE("everything that is seen changes the hash") {
   for (const char* definition :
        {"junction.kind=smooth", "junction.joint=paper", "junction.width=0.3", "bend.angle_degrees=5", "camera.zoom=2",
         "camera.position=[1,2,3]", "sun.azimuth_degrees=1", "sky.intensity=2", "ground.enabled=false",
-        "material.roughness=0.5"}) {
+        "material.roughness=0.5", "bark.kind=poplar", "bark.scale=0.1"}) {
     CAPTURE(definition);
     CHECK(hashes.insert(hash_of(path, {definition})).second);
   }
+  // Of a bark's image its content counts, not its name.
+  const auto with_image = [&](const std::string& name, const std::string& content) {
+    return hash_of(path, {"bark.kind=image", "bark.image=" + folder.write(name, content)});
+  };
+  const std::string of_image = with_image("a.png", "one");
+  CHECK(hashes.insert(of_image).second);
+  CHECK(with_image("b.png", "one") == of_image);
+  CHECK(hashes.insert(with_image("a.png", "two")).second);
   CHECK(hashes.insert(hash_of(folder.write("b.skel", "# barkridge skeleton 1\n0 -1 0 0 0 0 1 0 0.2 0.11\n"))).second);
 }

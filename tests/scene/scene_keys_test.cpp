@@ -56,7 +56,7 @@ TEST_CASE("every key refuses what it does not take and says what that is") {
   for (const SceneKey& key : scene_keys()) {
     const std::string name = name_of_any(key.name);
     for (const char* value : {"1979-05-27", "nan", "[nan, 0, 0]", "{}"}) {
-      const bool bare_word = key.name.starts_with("model.");
+      const bool bare_word = key.name.starts_with("model.") || key.name == "bark.image";
       if (bare_word && value == std::string("nan")) continue;
       CAPTURE(key.name, value);
       CHECK_THROWS_WITH(load_with(folder, name + '=' + value), Contains(name + ": expected " + key.takes + ", not "));
