@@ -5,15 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <utility>
 
 #include "base/geometry.h"
+#include "tests/support/degree.h"
 
 namespace barkridge::test {
 
 inline constexpr double kHalf = 0.5;  // the iso-value
-inline constexpr double kDegree = std::numbers::pi / 180;
 
 /// The outermost root of `f(x) = level` in [lo, hi], for f below `level` at hi: 500 steps, then halved to the last
 /// digit.

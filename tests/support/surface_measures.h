@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <optional>
 #include <vector>
 
 #include "blobtree/field.h"
 #include "lsystem/skeleton.h"
+#include "tests/support/degree.h"
 
 namespace barkridge::test {
 
@@ -93,7 +93,7 @@ inline double sharpest_opening_degrees(const Field& field, const RayFan& fan, do
     (in_left ? hi : lo) = middle;
     (in_left ? right : left) = between;
   }
-  return 180 - turn(left, right) * 180 / std::numbers::pi;
+  return 180 - turn(left, right) / kDegree;
 }
 
 /// The same angle at a given point of a crease: of the largest turn between gradients on a circle of radius 1e-6 around
@@ -103,7 +103,7 @@ inline double opening_degrees_at(const Field& field, const Vec3& crease, const V
   std::vector<Vec3> points, gradients(kPoints);
   std::vector<double> values(kPoints);
   for (int i = 0; i < kPoints; ++i) {
-    const double angle = 2 * std::numbers::pi * i / kPoints;
+    const double angle = 360.0 * i / kPoints * kDegree;
     points.push_back(crease + 1e-6 * (std::cos(angle) * a + std::sin(angle) * b));
   }
   field.values_and_gradients(points, values, gradients);
@@ -113,7 +113,7 @@ inline double opening_degrees_at(const Field& field, const Vec3& crease, const V
       least_cosine = std::min(least_cosine, glm::dot(glm::normalize(one), glm::normalize(other)));
     }
   }
-  return 180 - std::acos(std::max(-1.0, least_cosine)) * 180 / std::numbers::pi;
+  return 180 - std::acos(std::max(-1.0, least_cosine)) / kDegree;
 }
 
 /// How far a point is outside the union of a skeleton's internodes as they would be without blend, contact or joint;
