@@ -13,16 +13,16 @@ namespace barkridge::test {
 
 FigureMeasures measure_cuts() {
   const FigureScene figure = load_figure("figures/14_pruned.toml");
-  const Vec3 right(0.8, 0, -0.6), out(0.6, 0, 0.8), up(0, 1, 0);
-  const Vec3 lateral = std::sin(50 * kDegree) * right + std::cos(50 * kDegree) * up;
+  const Vec3 left(-2.8, 0, -2.1), right(2, 0, 1.5), up(0, 1, 0);
+  const Vec3 lateral(std::sin(50 * kDegree), std::cos(50 * kDegree), 0);
   FigureMeasures measures;
   // How far the surface is off the plane through `middle` at most, on a square of half the width `reach` around it.
   const auto unevenness = [&](const Vec3& middle, const Vec3& normal, double reach) {
-    const Vec3 across = glm::normalize(glm::cross(normal, out)), along = glm::cross(normal, across);
+    const Vec3 across = glm::normalize(glm::cross(normal, Vec3(0, 0, 1))), along = glm::cross(normal, across);
     double largest = 0;
     for (int i = -10; i <= 10; ++i) {
       for (int j = -10; j <= 10; ++j) {
-        const Vec3 p = middle + 0.1 * reach * (double(i) * across + double(j) * along);
+        const Vec3 p = middle + 0.1 * reach * (static_cast<double>(i) * across + static_cast<double>(j) * along);
         // From within the saw's kerf, half a unit above the cut.
         const auto found = first_inside(*figure.field, {p + 0.5 * normal, -normal}, 3);
         largest = std::max(largest, found ? std::abs(*found - 0.5) : 1);
@@ -30,9 +30,10 @@ FigureMeasures measure_cuts() {
     }
     return largest;
   };
-  measures.push_back({"left: largest distance of the cut from a plane",
-                      unevenness(Vec3(-3.5, 0, 0) + 2.0 * lateral, lateral, 0.35), 0, 1e-9, 9});
-  measures.push_back({"right: the same", unevenness(Vec3(2.5, 1.2, 0), up, 0.5), 0, 1e-9, 9});
+  measures.push_back(
+      {"left: largest distance of the cut from a plane", unevenness(left + 2.0 * lateral, lateral, 0.35), 0, 1e-9, 9});
+  measures.push_back({"right, leader: the same", unevenness(right + 1.2 * up, up, 0.5), 0, 1e-9, 9});
+  measures.push_back({"right, lateral: the same", unevenness(right + 1.2 / lateral.y * lateral, up, 0.35), 0, 1e-9, 9});
   return measures;
 }
 

@@ -13,24 +13,24 @@ namespace {
 
 const Vec3 kUp(0, 1, 0);
 
-// ---- Figure 12: forks of two equal branches at 20 degrees, drawn on axes of their own.
+// ---- Figure 12: forks of two equal branches at 20 degrees.
 
 struct Fork {
-  Vec3 origin;
-  Vec3 right{0.8, 0, -0.6}, out{0.6, 0, 0.8};  // the panels are turned about y
+  Vec3 origin;  // of the panel; the lines are about it
   double radius = std::sqrt(0.5);
   Line trunk{-6.0 * kUp, -(2.75 * radius - 1) * kUp, 1};
   Line one, other;  // mirror images in the plane of y and z
 
-  Fork(double panel, double displacement) : origin(panel, 0, 0) {
+  Fork(const Vec3& panel, double displacement) : origin(panel) {
     const Vec3 direction(std::sin(20 * kDegree), std::cos(20 * kDegree), 0), mirror(-1, 1, 1);
     one = {displacement * direction, 6.0 * direction, radius};
     other = {mirror * one.base, mirror * one.tip, radius};
   }
-  Vec3 placed(const Vec3& p) const { return origin + p.x * right + p.y * kUp + p.z * out; }
-  Vec3 turned(const Vec3& v) const { return v.x * right + v.y * kUp + v.z * out; }
   double value(const Vec3& p) const { return trunk.value(p) + contact(one.value(p), other.value(p)); }
 };
+
+const Vec3 kLeft(-2.4, 0, -1.8), kRight(2.4, 0, 1.8);
+const double kDisplacement = 1 - std::sqrt(0.5);  // equation 7
 
 }  // namespace
 
@@ -38,13 +38,13 @@ FigureMeasures measure_displaced() {
   const FigureScene figure = load_figure("figures/12_displaced.toml");
   FigureMeasures measures;
   for (const auto& [name, panel, displacement] :
-       {std::tuple{"left", -3.0, 0.0}, std::tuple{"right", 3.0, 1 - std::sqrt(0.5)}}) {
+       {std::tuple{"left", kLeft, 0.0}, std::tuple{"right", kRight, kDisplacement}}) {
     const Fork fork(panel, displacement);
     for (const auto& [where, direction] : {std::pair{"in", Vec3(1, 0, 0)}, std::pair{"out of", Vec3(0, 0, 1)}}) {
       double measured = 0, expected = 0;
       for (double y = -3; y <= -0.05; y += 0.05) {
         const Vec3 p(0, y, 0), d = direction;
-        measured = std::max(measured, surface_radius(*figure.field, fork.placed(p), fork.turned(d), 1.9));
+        measured = std::max(measured, surface_radius(*figure.field, fork.origin + p, d, 1.9));
         expected =
             std::max(expected, outermost_root([&](double rho) { return fork.value(p + rho * d); }, kHalf, 0.5, 1.6));
       }
@@ -57,7 +57,7 @@ FigureMeasures measure_displaced() {
 
 FigureMeasures measure_ridge() {
   const FigureScene figure = load_figure("figures/12_displaced.toml");
-  const Fork fork(3, 1 - std::sqrt(0.5));
+  const Fork fork(kRight, kDisplacement);
   FigureMeasures measures;
   // The crease lies in the plane of symmetry, where the branches' fields are equal.
   for (const double y : {-0.2, 0.2, 0.6, 0.8, 1.0, 1.4}) {
@@ -67,21 +67,21 @@ FigureMeasures measure_ridge() {
     const double expected =
         opening_degrees(trunk, fork.one.gradient(crease), fork.other.gradient(crease), fork.one.value(crease));
     measures.push_back({fmt::format("opening of the crease at height {} in degrees", y),
-                        opening_degrees_at(*figure.field, fork.placed(crease), fork.right, fork.out), expected, 0.2,
-                        1});
+                        opening_degrees_at(*figure.field, fork.origin + crease, Vec3(1, 0, 0), Vec3(0, 0, 1)), expected,
+                        0.2, 1});
   }
   // The un-swollen union: both branches and the trunk up to the branching point.
   Skeleton skeleton;
-  skeleton.internodes.push_back({fork.placed(-6.0 * kUp), fork.placed(Vec3(0)), 1, 1});
+  skeleton.internodes.push_back({fork.origin - 6.0 * kUp, fork.origin, 1, 1});
   for (const Line* line : {&fork.one, &fork.other}) {
-    skeleton.internodes.push_back({fork.placed(Vec3(0)), fork.placed(line->tip), line->radius, line->radius, 0, 1});
+    skeleton.internodes.push_back({fork.origin, fork.origin + line->tip, line->radius, line->radius, 0, 1});
   }
   // Out of the trunk's reach the ridge is highest where the other branch's field is w / 2 below the iso-value: f = T -
   // M there.
   for (const double y : {1.2, 1.5, 1.8}) {
     double highest = 0;
     for (double x = 0; x < 1.2; x += 0.002) {
-      const auto point = surface_point(*figure.field, {fork.placed(Vec3(x, y, 3)), -fork.out}, 3);
+      const auto point = surface_point(*figure.field, {fork.origin + Vec3(x, y, 3), Vec3(0, 0, -1)}, 3);
       if (point) highest = std::max(highest, rise_above_union(skeleton, point->position));
     }
     measures.push_back({fmt::format("swelling above the un-swollen union at height {}, in radii of the branch", y),
