@@ -18,17 +18,18 @@ struct FigureMeasure {
 };
 using FigureMeasures = std::vector<FigureMeasure>;
 
-FigureMeasures measure_cone();             ///< figure 7
-FigureMeasures measure_bulge();            ///< figure 8
-FigureMeasures measure_shortened();        ///< figure 9
-FigureMeasures measure_turned();           ///< figure 10
-FigureMeasures measure_branching();        ///< figure 11
-FigureMeasures measure_displaced();        ///< figure 12: bulges
-FigureMeasures measure_ridge();            ///< figure 12: the ridge of the right panel
-FigureMeasures measure_collars();          ///< figure 13
-FigureMeasures measure_cuts();             ///< figure 14
-FigureMeasures measure_scars();            ///< figure 15
-FigureMeasures measure_bend();             ///< figure 16
-FigureMeasures measure_poplar_crotches();  ///< figures 17, 18
+FigureMeasures measure_cone();           ///< figure 7
+FigureMeasures measure_bulge();          ///< figure 8
+FigureMeasures measure_shortened();      ///< figure 9
+FigureMeasures measure_turned();         ///< figure 10
+FigureMeasures measure_branching();      ///< figure 11
+FigureMeasures measure_displaced();      ///< figure 12: bulges
+FigureMeasures measure_ridge();          ///< figure 12: the ridge of the right panel
+FigureMeasures measure_collars();        ///< figure 13
+FigureMeasures measure_cuts();           ///< figure 14
+FigureMeasures measure_scars();          ///< figure 15
+FigureMeasures measure_bend();           ///< figure 16
+FigureMeasures measure_smooth_poplar();  ///< figure 17
+FigureMeasures measure_ridged_poplar();  ///< figure 18
 
 }  // namespace barkridge::test

@@ -106,42 +106,47 @@ FigureMeasures measure_bend() {
   return measures;
 }
 
-FigureMeasures measure_poplar_crotches() {
-  FigureMeasures measures;
-  // A sum of C1 fields is smooth. How far a ridge seems open depends on where one wall hides the other.
-  using Expected = std::optional<double>;
-  for (const auto& [name, scene, expected] :
-       {std::tuple{"smooth", "poplar_smooth.toml", Expected(180)}, std::tuple{"ridges", "poplar.toml", Expected()}}) {
-    const Model model = make_model(load_scene(BARKRIDGE_SOURCE_DIR "/scenes/" + std::string(scene)));
-    const auto field = compile(model.tree);
-    const auto& internodes = model.skeleton.internodes;
-    double least = 180, most = 0;
-    int laterals = 0;
-    for (std::size_t i = 0; i < internodes.size() && laterals < 10; ++i) {
-      const Internode& lateral = internodes[i];
-      if (lateral.order != 1 || internodes[static_cast<std::size_t>(lateral.parent)].order != 0) continue;
-      ++laterals;
-      const Internode& parent = internodes[static_cast<std::size_t>(lateral.parent)];
-      const Vec3 up = glm::normalize(parent.tip - parent.base), out = glm::normalize(lateral.tip - lateral.base);
-      // Parallel rays into the crotch, across both branches.
-      const Vec3 bisector = glm::normalize(up + out), across = glm::normalize(out - up);
-      const double width = lateral.base_radius;
-      // Where the lateral's upper side would meet the trunk's.
-      const Vec3 crotch = lateral.base + (parent.tip_radius * out + width * up) / glm::length(glm::cross(up, out));
-      const auto near = field->restricted(grown({crotch, crotch}, 8 * width));
-      const RayFan fan = [&](double t) {
-        return Ray{crotch + 3 * width * bisector + 3 * width * (t - 0.5) * across, -bisector};
-      };
-      const double opening = sharpest_opening_degrees(*near, fan, 5 * width, 0.02 * width);
-      least = std::min(least, opening);
-      most = std::max(most, opening);
-    }
-    const std::string what =
-        fmt::format("{}: opening across the crotches of the {} lowest laterals in degrees", name, laterals);
-    measures.push_back({what + ", least", least, expected, 0.01, 1});
-    measures.push_back({what + ", largest", most, expected, 0.01, 1});
-  }
-  return measures;
+namespace {
+
+// The angle between the walls where a lateral leaves the trunk, as parallel rays into the crotch see them.
+double crotch_opening_degrees(const Field& field, const Internode& trunk, const Internode& lateral) {
+  const Vec3 up = glm::normalize(trunk.tip - trunk.base), out = glm::normalize(lateral.tip - lateral.base);
+  const Vec3 bisector = glm::normalize(up + out), across = glm::normalize(out - up);
+  const double width = lateral.base_radius;
+  // Where the lateral's upper side would meet the trunk's.
+  const Vec3 crotch = lateral.base + (trunk.tip_radius * out + width * up) / glm::length(glm::cross(up, out));
+  const RayFan fan = [&](double t) {
+    return Ray{crotch + 3 * width * bisector + 3 * width * (t - 0.5) * across, -bisector};
+  };
+  const auto near = field.restricted(grown({crotch, crotch}, 8 * width));
+  return sharpest_opening_degrees(*near, fan, 5 * width, 0.02 * width);
 }
+
+FigureMeasures measure_crotches(const std::string& scene, std::optional<double> expected) {
+  constexpr int kLaterals = 10;
+  const Model model = make_model(load_scene(BARKRIDGE_SOURCE_DIR "/scenes/" + scene));
+  const auto field = compile(model.tree);
+  double least = 180, largest = 0;
+  int laterals = 0;
+  for (const Internode& lateral : model.skeleton.internodes) {
+    if (lateral.order != 1 || laterals == kLaterals) continue;
+    const Internode& trunk = model.skeleton.internodes[static_cast<std::size_t>(lateral.parent)];
+    if (trunk.order != 0) continue;
+    ++laterals;
+    const double opening = crotch_opening_degrees(*field, trunk, lateral);
+    least = std::min(least, opening);
+    largest = std::max(largest, opening);
+  }
+  const std::string what = fmt::format("opening across the crotches of the {} lowest laterals in degrees", laterals);
+  return {{what + ", least", least, expected, 0.01, 1}, {what + ", largest", largest, expected, 0.01, 1}};
+}
+
+}  // namespace
+
+// A sum of C1 fields is smooth.
+FigureMeasures measure_smooth_poplar() { return measure_crotches("poplar_smooth.toml", 180); }
+
+// How far a ridge seems open depends on where one wall hides the other.
+FigureMeasures measure_ridged_poplar() { return measure_crotches("poplar.toml", std::nullopt); }
 
 }  // namespace barkridge::test
