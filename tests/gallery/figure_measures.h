@@ -18,6 +18,17 @@ struct FigureMeasure {
 };
 using FigureMeasures = std::vector<FigureMeasure>;
 
+/// The measure as a row of docs/gallery.md: `| what | measured | expected |`.
+std::string table_row(const FigureMeasure& measure);
+
+/// The measures of a figure.
+struct FigureMeter {
+  const char* figure;  ///< its number
+  FigureMeasures (*measure)();
+};
+/// All that there are, in the order of the figures.
+const std::vector<FigureMeter>& figure_meters();
+
 FigureMeasures measure_cone();           ///< figure 7
 FigureMeasures measure_bulge();          ///< figure 8
 FigureMeasures measure_shortened();      ///< figure 9
