@@ -27,7 +27,8 @@ struct Range {
   }
 };
 
-// Radii along an axis through `joint`, sampled from `from` to `to` along the unit vector `axis`, divided by `due`.
+// Radii along the unit vector `axis` from the origin, at 61 places from `from` to `to`, each divided by what is due
+// there.
 template <typename Radius, typename Due>
 void add_radii(Range& range, const Radius& radius, const Vec3& axis, double from, double to, const Due& due) {
   constexpr int kSteps = 60;
