@@ -93,7 +93,7 @@ inline double opening_degrees(const Vec3& carrier, const Vec3& a_gradient, const
   const double slope = h_slope(kHalf - f);
   const Vec3 one = glm::normalize(carrier + a_gradient - slope * b_gradient);
   const Vec3 other = glm::normalize(carrier + b_gradient - slope * a_gradient);
-  return 180 - std::acos(std::clamp(glm::dot(one, other), -1.0, 1.0)) / kDegree;
+  return std::max(0.0, 180 - std::acos(std::clamp(glm::dot(one, other), -1.0, 1.0)) / kDegree);
 }
 
 }  // namespace barkridge::test

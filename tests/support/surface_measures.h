@@ -113,7 +113,7 @@ inline double opening_degrees_at(const Field& field, const Vec3& crease, const V
       least_cosine = std::min(least_cosine, glm::dot(glm::normalize(one), glm::normalize(other)));
     }
   }
-  return 180 - std::acos(std::max(-1.0, least_cosine)) / kDegree;
+  return std::max(0.0, 180 - std::acos(std::max(-1.0, least_cosine)) / kDegree);
 }
 
 /// How far a point is outside the union of a skeleton's internodes as they would be without blend, contact or joint;
