@@ -7,6 +7,7 @@
 #include "blobtree/falloff.h"
 #include "blobtree/from_skeleton.h"
 #include "tests/support/skeletons.h"
+#include "tests/support/surface_measures.h"
 
 using namespace barkridge;
 using namespace barkridge::test;
@@ -26,21 +27,12 @@ double value(const Field& field, const Vec3& p) {
   return f;
 }
 
-// Distance from `origin` to the outermost surface within 1.9 along `direction`.
-double surface_radius(const Field& field, const Vec3& origin, const Vec3& direction) {
-  double inside = 1.9;
-  while (inside > 0.3 && value(field, origin + inside * direction) < kIsoValue) inside -= 0.01;
-  double outside = inside + 0.01;
-  for (int i = 0; i < 50; ++i) {
-    const double middle = 0.5 * (inside + outside);
-    (value(field, origin + middle * direction) >= kIsoValue ? inside : outside) = middle;
-  }
-  return inside;
-}
-
 Vec3 around(double azimuth_degrees) {
   return {std::cos(azimuth_degrees * kDegree), 0, std::sin(azimuth_degrees * kDegree)};
 }
+
+// No branch is wider.
+constexpr double kFarthest = 1.9;
 
 struct Profile {
   double lowest = 10, highest = 0;
@@ -54,7 +46,7 @@ struct Profile {
 Profile along_trunk(const Field& field, double from, double to, double azimuth_degrees) {
   Profile profile;
   for (int i = 0; i <= 200; ++i) {
-    profile.add(surface_radius(field, Vec3(0, from + (to - from) * i / 200, 0), around(azimuth_degrees)));
+    profile.add(surface_radius(field, Vec3(0, from + (to - from) * i / 200, 0), around(azimuth_degrees), kFarthest));
   }
   return profile;
 }
@@ -66,15 +58,15 @@ TEST_CASE("the paper's straight and turned continuations keep their radius") {
     const auto field = field_of(junction({{turn, 0, 1}}), JointKind::kPaper, JunctionKind::kRidge);
     Profile out_of_plane;
     for (int i = 0; i <= 80; ++i) {
-      out_of_plane.add(surface_radius(*field, Vec3(0, -0.05 * i, 0), Vec3(0, 0, 1)));
+      out_of_plane.add(surface_radius(*field, Vec3(0, -0.05 * i, 0), Vec3(0, 0, 1), kFarthest));
       const Vec3 on_branch = 0.05 * i * Vec3(std::sin(turn * kDegree), std::cos(turn * kDegree), 0);
-      out_of_plane.add(surface_radius(*field, on_branch, Vec3(0, 0, 1)));
+      out_of_plane.add(surface_radius(*field, on_branch, Vec3(0, 0, 1), kFarthest));
     }
     CAPTURE(turn);
     CHECK(out_of_plane.lowest >= 0.9975);
     CHECK(out_of_plane.highest <= 1.0025);
     const Vec3 elbow(-std::cos(turn / 2 * kDegree), std::sin(turn / 2 * kDegree), 0);
-    CHECK(surface_radius(*field, Vec3(0), elbow) == Approx(1.0).margin(5e-4));
+    CHECK(surface_radius(*field, Vec3(0), elbow, kFarthest) == Approx(1.0).margin(5e-4));
   }
 }
 
@@ -115,7 +107,7 @@ TEST_CASE("faded joints along an axis leave no trace, whatever the internodes' l
         // Across the axis a cone of slope s has 1 / sqrt(1 - s^2) times the radius of its sphere there.
         const double expected = (1 - taper * y) / std::sqrt(1 - taper * taper);
         CAPTURE(length, taper, y);
-        REQUIRE(surface_radius(*field, Vec3(0, y, 0), Vec3(1, 0, 0)) == Approx(expected).epsilon(5e-6));
+        REQUIRE(surface_radius(*field, Vec3(0, y, 0), Vec3(1, 0, 0), kFarthest) == Approx(expected).epsilon(5e-6));
       }
     }
   }

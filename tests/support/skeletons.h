@@ -2,15 +2,13 @@
 // Skeletons with known shapes, for tests.
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "lsystem/skeleton.h"
+#include "tests/support/degree.h"
 #include "tests/support/random_source.h"
 
 namespace barkridge::test {
-
-inline constexpr double kDegree = std::numbers::pi / 180;
 
 /// A trunk of unit radius that ends at the origin, coming from below, with branches of constant radius from there.
 struct Branch {
