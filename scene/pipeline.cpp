@@ -79,8 +79,8 @@ Model make_model(const Scene& scene, const Listener& listener) {
 
 Model make_model(const Scene& scene, Skeleton skeleton) {
   Model model;
-  model.tree = tree_from_skeleton(skeleton, scene.tree);
-  model.skeleton = std::move(skeleton);
+  model.skeleton = prune(std::move(skeleton), scene.cuts, scene.scars);
+  model.tree = tree_from_skeleton(model.skeleton, scene.tree);
   return model;
 }
 

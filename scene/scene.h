@@ -6,9 +6,11 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "blobtree/from_skeleton.h"
 #include "lsystem/derive.h"
+#include "lsystem/prune.h"
 #include "lsystem/turtle.h"
 #include "raytrace/render.h"
 
@@ -61,6 +63,9 @@ struct Scene {
   /// Replacements for values that the L-system defines.
   std::map<std::string, std::string> defines;
   TurtleOptions turtle;
+  /// Branches that are missing, in the order of the file.
+  std::vector<CutRule> cuts;
+  std::vector<ScarRule> scars;
   TreeOptions tree;
   SceneCamera camera;
   SceneSun sun;

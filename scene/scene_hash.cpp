@@ -56,10 +56,26 @@ void add_skeleton(Sha256& hash, const Skeleton& skeleton) {
     append(bytes, static_cast<std::uint64_t>(internode.parent));
     hash.add(bytes);
   }
+  for (const CutEnd& end : skeleton.cut_ends) {
+    bytes.clear();
+    append(bytes, static_cast<std::uint64_t>(end.internode));
+    append(bytes, end.normal);
+    append(bytes, end.splinters);
+    hash.add(bytes);
+  }
+  for (const Scar& scar : skeleton.scars) {
+    bytes.clear();
+    append(bytes, static_cast<std::uint64_t>(scar.internode));
+    append(bytes, scar.shape.width);
+    append(bytes, scar.shape.depth);
+    append(bytes, scar.shape.stub);
+    hash.add(bytes);
+  }
 }
 
 bool is_seen(std::string_view key) {
-  for (const std::string_view section : {"junction.", "bend.", "camera.", "sun.", "sky.", "ground.", "material."}) {
+  for (const std::string_view section :
+       {"junction.", "bend.", "tip", "cut", "scar", "camera.", "sun.", "sky.", "ground.", "material."}) {
     if (key.starts_with(section)) return true;
   }
   return false;
