@@ -172,21 +172,31 @@ class AxisMaker {
   void add_tip(const TipRule& rule) {
     const Internode carrier = made_.skeleton.internodes.back();
     const Vec3 axis = end_tangent(carrier, made_.arcs.back());
-    const auto add_piece = [&](double from, double to, double base_radius, double tip_radius) {
-      Internode piece = carrier;
-      const double radius = carrier.tip_radius;
-      piece.base = carrier.tip + from * rule.length * radius * axis;
-      piece.tip = carrier.tip + to * rule.length * radius * axis;
-      piece.base_radius = base_radius * radius;
-      piece.tip_radius = tip_radius * radius;
-      piece.parent = last();
-      add(piece, {});
-    };
+    const double length = rule.length * carrier.tip_radius;
     if (rule.kind == TipKind::kPointed) {
-      add_piece(0, 1, 1, kPointRadius);
+      add_cone(carrier.tip + length * axis, kPointRadius * carrier.tip_radius);
     } else if (rule.kind == TipKind::kBud) {
-      add_piece(0, kBudWidest, 1, kBudRadius);
-      add_piece(kBudWidest, 1, kBudRadius, kPointRadius);
+      add_cone(carrier.tip + kBudWidest * length * axis, kBudRadius * carrier.tip_radius);
+      add_cone(carrier.tip + length * axis, kPointRadius * carrier.tip_radius);
+    }
+  }
+
+  // A cone from the last tip on, in pieces which the thin end's small radius concerns but little: along one cone
+  // internodes leave no trace.
+  void add_cone(const Vec3& tip, double tip_radius) {
+    constexpr double kMostThinner = 2.53;  // a third root of 1 / kPointRadius is less
+    const Internode carrier = made_.skeleton.internodes.back();
+    const double ratio = tip_radius / carrier.tip_radius;
+    const int count = std::max(1, static_cast<int>(std::ceil(-std::log(ratio) / std::log(kMostThinner))));
+    for (int k = 1; k <= count; ++k) {
+      Internode piece = made_.skeleton.internodes.back();
+      piece.parent = last();
+      piece.base = piece.tip;
+      piece.base_radius = piece.tip_radius;
+      piece.tip_radius = carrier.tip_radius * std::pow(ratio, static_cast<double>(k) / count);
+      const double share = (carrier.tip_radius - piece.tip_radius) / (carrier.tip_radius - tip_radius);
+      piece.tip = carrier.tip + share * (tip - carrier.tip);
+      add(piece, {});
     }
   }
 
@@ -237,7 +247,9 @@ Axes axes_of(const Skeleton& skeleton, const TreeOptions& options) {
   check(options.bend_angle_degrees);
   for (const BendRule& rule : options.bends) check(rule.angle_degrees);
   for (const TipRule& rule : options.tips) {
-    if (!(rule.length >= 1)) throw InputError(fmt::format("a tip's length {} is less than 1", rule.length));
+    if (!(rule.length >= kShortestTip)) {
+      throw InputError(fmt::format("a tip's length {} is less than {}", rule.length, kShortestTip));
+    }
   }
   return AxisMaker(skeleton, options).run();
 }

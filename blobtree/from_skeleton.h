@@ -34,14 +34,15 @@ enum class TipKind {
 };
 /// In radii of the internode's tip.
 inline constexpr double kPointRadius = 1.0 / 16;
-inline constexpr double kBudRadius = 1.4;
+inline constexpr double kBudRadius = 1.3;
 inline constexpr double kBudWidest = 0.4;  ///< share of a bud's length at which it is widest
+inline constexpr double kShortestTip = 3;
 
 /// Ends some branches.
 struct TipRule {
   Selection internodes;  ///< by the last ones of branches
   TipKind kind = TipKind::kPointed;
-  double length = 4;  ///< from the internode's tip, in radii there; at least 1
+  double length = 5;  ///< from the internode's tip, in radii there; at least kShortestTip
 };
 
 struct TreeOptions {

@@ -58,8 +58,8 @@ std::vector<Cone> splinters(const Plant& plant, const CutEnd& end) {
     const double drift = 0.08 * height * (random(2) - 0.5);
     const double rise = -glm::dot(side, end.normal) / glm::dot(axis, end.normal);  // of the cut, there
     const Vec3 foot = plant.internode(i).tip + 0.9 * out * radius * (side + rise * axis);
-    cones.push_back({foot - 0.7 * radius * axis, foot + height * axis + drift * x, (0.22 + 0.16 * random(3)) * radius,
-                     0.03 * radius});
+    cones.push_back({foot - 0.7 * radius * axis, foot + height * axis + drift * x, (0.32 + 0.24 * random(3)) * radius,
+                     0.06 * radius});
   }
   return cones;
 }

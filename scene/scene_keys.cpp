@@ -471,10 +471,11 @@ void add_axis_keys(Keys& keys) {
                   "tip[].kind", {{TipKind::kRound, "round"}, {TipKind::kPointed, "pointed"}, {TipKind::kBud, "bud"}},
                   [](auto& s) -> auto& { return s.tree.tips.front().kind; }, "In half a ball, a point or a bud."),
               tips));
-  keys.push_back(in_list(number(
-                             "tip[].length", at_least(1), [](auto& s) -> auto& { return s.tree.tips.front().length; },
-                             "Length of a point or bud, in tip radii."),
-                         tips));
+  keys.push_back(
+      in_list(number(
+                  "tip[].length", at_least(kShortestTip), [](auto& s) -> auto& { return s.tree.tips.front().length; },
+                  "Length of a point or bud, in tip radii."),
+              tips));
   add_selection_keys(keys, "tip", tips, internodes, "last internodes", "");
 }
 
