@@ -18,6 +18,8 @@ constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 
 // Influence reaches two radii from the axis; a bent axis keeps at least this multiple of it to its arc's centre.
 constexpr double kBendClearance = 1.25;
+// An arc of more than so many radii of its internode is straight: single precision has no digits for such a bend.
+constexpr double kFlattestArc = 3e4;
 // What is nearer to a straight line is one; in radians.
 constexpr double kCollinear = 1e-6;
 
@@ -37,6 +39,7 @@ Arc arc_from(const Internode& a, const Vec3& tangent) {
   const Vec3 chord = direction_of(a), bulge = across(tangent, chord);
   const double sine = glm::length(bulge);
   if (sine < kCollinear) return {};
+  if (length_of(a) > 2 * sine * kFlattestArc * std::min(a.base_radius, a.tip_radius)) return {};
   const double angle = 2 * std::atan2(sine, glm::dot(tangent, chord)) / kRadiansPerDegree;
   return {bulge / sine, std::min(angle, widest_angle(a))};
 }

@@ -97,9 +97,11 @@ Neighbourhood Plant::neighbourhood_of(std::size_t i) const {
   if (parent == kNoInternode) return near;
   near.parent = &internode(static_cast<std::size_t>(parent));
   const auto siblings = children_of(static_cast<std::size_t>(parent));
-  near.shares_base = siblings.size() > 1 && std::count_if(siblings.begin(), siblings.end(), [&](InternodeId sibling) {
-                                              return !scar_of(static_cast<std::size_t>(sibling));
-                                            }) > 1;
+  int standing = 0;
+  for (std::size_t k = 0; k < siblings.size() && standing < 2; ++k) {
+    standing += scar_of(static_cast<std::size_t>(siblings[k])) == nullptr;
+  }
+  near.shares_base = standing > 1;
   return near;
 }
 

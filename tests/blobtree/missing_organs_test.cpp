@@ -229,7 +229,8 @@ TEST_CASE("the compiled field agrees with the reference on trees with missing or
       const double expected = value(*slow, p);
       if (expected == 0) continue;
       ++compared;
-      differing += std::abs(value(*fast, p) - expected) > 2e-5;
+      // Arcs of thousands of radii leave single precision few digits.
+      differing += std::abs(value(*fast, p) - expected) > (options.bend_angle_degrees > 0 ? 1e-3 : 2e-5);
     }
   }
   CHECK(compared > 2000);
