@@ -134,6 +134,7 @@ BranchCoordinates::BranchCoordinates(const BlobTree& tree, const Skeleton& skele
         tree.nodes[id].what);
   }
   for (std::size_t i = 0; i < primitives.size(); ++i) {
+    if (primitives[i] == kNoNode) continue;
     const std::uint32_t place = places_[primitives[i]];
     const Internode& internode = skeleton.internodes[i];
     BranchFrame& frame = frames_[place];

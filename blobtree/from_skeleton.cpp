@@ -3,89 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <numbers>
 #include <span>
 #include <tuple>
 
 #include "base/error.h"
 #include "base/large_room.h"
+#include "blobtree/axes.h"
+#include "blobtree/missing_organs.h"
+#include "blobtree/plant.h"
 
 namespace barkridge {
 
 namespace {
-
-constexpr double kRadiansPerDegree = std::numbers::pi / 180;
-
-// Influence reaches two radii from the axis; a bent axis keeps at least this multiple of it to its arc's centre.
-constexpr double kBendClearance = 1.25;
-
-// What an internode's primitive must know of its neighbours.
-struct Neighbourhood {
-  const Internode* parent = nullptr;
-  bool shares_base = false;  // with other children of its parent
-  std::size_t child_count = 0;
-  double thickest_child = 0;  // base radius
-};
-
-// [GMW04, eqs. 4, 7, 8] Radii stay on the internode's taper line; at least a sphere is left.
-Cone paper_cone(const Internode& a, const Neighbourhood& near, JunctionKind junction) {
-  const double length = glm::distance(a.base, a.tip);
-  double start = 0, shortening = 0;
-  if (near.parent && near.shares_base && junction == JunctionKind::kRidge) {
-    start = std::clamp(near.parent->tip_radius - a.base_radius, 0.0, length);
-  }
-  if (near.child_count > 1 && junction == JunctionKind::kRidge) {
-    shortening = 2.75 * near.thickest_child - a.tip_radius;
-  } else if (near.child_count > 0) {
-    shortening = 1.75 * near.thickest_child;
-  }
-  const double end = std::max(start, length - shortening);
-  const Vec3 axis = (a.tip - a.base) / length;
-  const double taper = (a.tip_radius - a.base_radius) / length;
-  const double thinnest = 1e-3 * std::min(a.base_radius, a.tip_radius);
-  return {a.base + start * axis, a.base + end * axis, a.base_radius + taper * start,
-          std::max(thinnest, a.base_radius + taper * end)};
-}
-
-FadedCone faded_cone(const Internode& a, const Neighbourhood& near) {
-  return {a.base, a.tip, a.base_radius, a.tip_radius, near.parent ? near.parent->tip_radius : 0.0, near.thickest_child};
-}
-
-// The bend of an internode in the plane of its axis and its parent's, so that it starts farther away from the parent's
-// direction; angle 0 where the two are collinear. [GMW04, section 3.6]
-Bend bend_of(const Internode& a, const Neighbourhood& near, double angle_degrees) {
-  Bend bend{a.base, a.tip, Vec3(0), 0};
-  if (!near.parent) return bend;
-  const double length = glm::distance(a.base, a.tip);
-  const Vec3 axis = (a.tip - a.base) / length;
-  const Vec3 basal = glm::normalize(near.parent->tip - near.parent->base);
-  const Vec3 away = -(basal - glm::dot(basal, axis) * axis);
-  constexpr double kCollinear = 1e-6;
-  if (glm::length(away) < kCollinear) return bend;
-  bend.direction = glm::normalize(away);
-  const double clearance = kBendClearance * 4 * std::max(a.base_radius, a.tip_radius);
-  const double widest = 2 * std::asin(std::min(1.0, length / clearance)) / kRadiansPerDegree;
-  bend.angle_degrees = std::min(angle_degrees, widest);
-  return bend;
-}
-
-template <typename Primitive>
-NodeId add_bent(BlobTree& tree, Primitive primitive, const Bend& bend) {
-  if (!(bend.angle_degrees > 0)) return tree.add(primitive);
-  // The child is straight and as long as the arc; its ends stay as far from the arc's ends as they were from the
-  // chord's.
-  const Vec3 axis = (bend.tip - bend.base) / glm::distance(bend.base, bend.tip);
-  primitive.tip += (arc_length(bend) - glm::distance(bend.base, bend.tip)) * axis;
-  return tree.add(bend, {tree.add(primitive)});
-}
-
-NodeId add_primitive(BlobTree& tree, const Internode& a, const Neighbourhood& near, const TreeOptions& options) {
-  const Bend bend = bend_of(a, near, options.bend_angle_degrees);
-  return options.joint == JointKind::kPaper ? add_bent(tree, paper_cone(a, near, options.junction), bend)
-                                            : add_bent(tree, faded_cone(a, near), bend);
-}
 
 // Nodes that are to be summed: a subtree before anything but a sum has needed it as one node. Each is linked to the
 // next, so that rows of any length become one at no cost.
@@ -96,28 +26,35 @@ struct Summands {
 
 class TreeBuilder {
  public:
-  TreeBuilder(const Skeleton& skeleton, const TreeOptions& options)
-      : internodes_(skeleton.internodes), options_(options), table_(child_table(skeleton)) {
-    resize_large(subtrees_, internodes_.size());
-    const std::size_t most = most_nodes();
+  explicit TreeBuilder(const Plant& plant) : plant_(plant) {
+    resize_large(subtrees_, plant_.size());
+    carvings_ = add_carvings(plant_, tree_);
+    // A carving may need a sum, and is followed by no more than one operator.
+    const std::size_t most = most_nodes() + tree_.nodes.size() + 2 * carvings_.size();
     reserve_large(tree_.nodes, most);
     resize_large(next_, most);
-    resize_large(primitives_, internodes_.size());
+    resize_large(primitives_, plant_.size());
   }
 
   PlantTree run() {
     // Children before parents: the summands of a subtree move up the axis and become a node where branches touch.
-    for (std::size_t i = internodes_.size(); i-- > 0;) {
-      Summands subtree = join(children_of(i));
-      const NodeId internode = add_primitive(tree_, internodes_[i], neighbourhood_of(i), options_);
+    auto carving = carvings_.begin();
+    for (std::size_t i = plant_.size(); i-- > 0;) {
+      primitives_[i] = kNoNode;
+      if (plant_.scar_of(i)) continue;
+      Summands subtree = join(plant_.children_of(i));
+      const NodeId internode = plant_.add_primitive(tree_, i);
       primitives_[i] = tree_.nodes[internode].children.empty() ? internode : tree_.nodes[internode].children[0];
       append(subtree, single(internode));
+      const auto first = carving;
+      while (carving != carvings_.end() && carving->internode == static_cast<InternodeId>(i)) ++carving;
+      if (first != carving) carve(subtree, std::span(first, carving));
       subtrees_[i] = subtree;
     }
     // Roots that start at one point are children of the ground there.
     std::map<std::tuple<double, double, double>, std::vector<InternodeId>> plants;
-    for (const InternodeId root : children_of(internodes_.size())) {
-      const Vec3& base = internodes_[static_cast<std::size_t>(root)].base;
+    for (const InternodeId root : plant_.children_of(plant_.size())) {
+      const Vec3& base = plant_.internode(static_cast<std::size_t>(root)).base;
       plants[{base.x, base.y, base.z}].push_back(root);
     }
     std::vector<NodeId> apart;
@@ -126,42 +63,24 @@ class TreeBuilder {
       tree_.add(Union{}, std::move(apart));
     else if (apart.size() == 1)
       tree_.root = apart.front();
-    return {std::move(tree_), std::move(primitives_)};
+    return {std::move(tree_), std::move(primitives_), {}};
   }
 
  private:
-  std::span<const InternodeId> children_of(std::size_t i) const {
-    return std::span(table_.children).subspan(table_.first[i], table_.first[i + 1] - table_.first[i]);
-  }
-
   // A primitive and perhaps a bend for every internode; a contact where branches touch, and a sum for each of several
   // internodes; what joins the roots.
   std::size_t most_nodes() const {
-    std::size_t most = internodes_.size() * (options_.bend_angle_degrees > 0 ? 2 : 1);
-    most += 3 * children_of(internodes_.size()).size() + 1;
-    if (options_.junction == JunctionKind::kSmooth) return most;
-    for (std::size_t i = 0; i < internodes_.size(); ++i) {
-      const auto children = children_of(i);
+    std::size_t most = plant_.size() * (plant_.has_arcs() ? 2 : 1);
+    most += 3 * plant_.children_of(plant_.size()).size() + 1;
+    if (plant_.options().junction == JunctionKind::kSmooth) return most;
+    for (std::size_t i = 0; i < plant_.size(); ++i) {
+      const auto children = plant_.children_of(i);
       if (children.size() < 2) continue;
       most += 1 + static_cast<std::size_t>(std::count_if(children.begin(), children.end(), [&](InternodeId child) {
-                return !children_of(static_cast<std::size_t>(child)).empty();
+                return !plant_.children_of(static_cast<std::size_t>(child)).empty();
               }));
     }
     return most;
-  }
-
-  Neighbourhood neighbourhood_of(std::size_t i) const {
-    Neighbourhood near;
-    const auto children = children_of(i);
-    near.child_count = children.size();
-    for (const InternodeId child : children) {
-      near.thickest_child = std::max(near.thickest_child, internodes_[static_cast<std::size_t>(child)].base_radius);
-    }
-    if (const InternodeId parent = internodes_[i].parent; parent != kNoInternode) {
-      near.parent = &internodes_[static_cast<std::size_t>(parent)];
-      near.shares_base = children_of(static_cast<std::size_t>(parent)).size() > 1;
-    }
-    return near;
   }
 
   static Summands single(NodeId node) { return {node, node, 1}; }
@@ -188,40 +107,68 @@ class TreeBuilder {
 
   // What branches that start at one point are together.
   Summands join(std::span<const InternodeId> branches) {
-    const auto subtree_of = [&](InternodeId branch) { return subtrees_[static_cast<std::size_t>(branch)]; };
-    if (branches.size() > 1 && options_.junction == JunctionKind::kRidge) {
-      std::vector<NodeId> nodes;
-      nodes.reserve(branches.size());
-      for (const InternodeId branch : branches) nodes.push_back(as_node(subtree_of(branch)));
-      return single(tree_.add(Contact{options_.contact}, std::move(nodes)));
-    }
+    if (branches.size() > 1 && plant_.options().junction == JunctionKind::kRidge) return join_by_contact(branches);
     Summands all;
     for (const InternodeId branch : branches) {
-      Summands subtree = subtree_of(branch);
+      Summands subtree = subtrees_[static_cast<std::size_t>(branch)];
       if (subtree.count > all.count) std::swap(all, subtree);
       if (subtree.count > 0) append(all, subtree);
     }
     return all;
   }
 
-  const std::vector<Internode>& internodes_;
-  const TreeOptions& options_;
-  const ChildTable table_;
+  Summands join_by_contact(std::span<const InternodeId> branches) {
+    std::vector<Summands> subtrees;
+    subtrees.reserve(branches.size());
+    for (const InternodeId branch : branches) {
+      const Summands& subtree = subtrees_[static_cast<std::size_t>(branch)];
+      if (subtree.count > 0) subtrees.push_back(subtree);
+    }
+    if (subtrees.size() < 2) return subtrees.empty() ? Summands{} : subtrees[0];
+    std::vector<NodeId> nodes;
+    nodes.reserve(subtrees.size());
+    for (const Summands& subtree : subtrees) nodes.push_back(as_node(subtree));
+    return single(tree_.add(Contact{plant_.options().contact}, std::move(nodes)));
+  }
+
+  // What missing organs make of a subtree: first sums, then negative fields, then cuts.
+  void carve(Summands& subtree, std::span<const Carving> carvings) {
+    std::vector<NodeId> negatives{0}, subtracted{0};
+    for (const Carving& carving : carvings) {
+      if (carving.kind == Carving::Kind::kAdded) append(subtree, single(carving.node));
+      if (carving.kind == Carving::Kind::kNegative) negatives.push_back(carving.node);
+      if (carving.kind == Carving::Kind::kSubtracted) subtracted.push_back(carving.node);
+    }
+    const auto apply = [&](auto what, std::vector<NodeId>& children) {
+      if (children.size() == 1) return;
+      children[0] = as_node(subtree);
+      subtree = single(tree_.add(what, std::move(children)));
+    };
+    apply(Negative{}, negatives);
+    apply(Difference{}, subtracted);
+  }
+
+  const Plant& plant_;
   BlobTree tree_;
   std::vector<NodeId> primitives_;  // by internode
+  std::vector<Carving> carvings_;
   std::vector<NodeId> next_;        // by node: what it is followed by among summands
-  std::vector<Summands> subtrees_;  // by internode
+  std::vector<Summands> subtrees_;  // by internode; none of what is shed
 };
 
 }  // namespace
 
-PlantTree plant_from_skeleton(const Skeleton& skeleton, const TreeOptions& options) {
+PlantTree plant_from_skeleton(Skeleton skeleton, const TreeOptions& options) {
   check(options.contact);
-  if (!(0 <= options.bend_angle_degrees && options.bend_angle_degrees < 180)) {
-    throw InputError(
-        fmt::format("bend angle {} is outside its range: 0 <= angle_degrees < 180", options.bend_angle_degrees));
+  std::vector<Arc> arcs;
+  if (shapes_axes(options)) {
+    Axes axes = axes_of(skeleton, options);
+    skeleton = std::move(axes.skeleton);
+    arcs = std::move(axes.arcs);
   }
-  return TreeBuilder(skeleton, options).run();
+  PlantTree plant = TreeBuilder(Plant(skeleton, arcs, options)).run();
+  plant.skeleton = std::move(skeleton);
+  return plant;
 }
 
 BlobTree tree_from_skeleton(const Skeleton& skeleton, const TreeOptions& options) {

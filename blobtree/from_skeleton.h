@@ -1,6 +1,9 @@
 #pragma once
 
+#include <vector>
+
 #include "blobtree/tree.h"
+#include "lsystem/selection.h"
 #include "lsystem/skeleton.h"
 
 namespace barkridge {
@@ -17,25 +20,61 @@ enum class JointKind {
   kPaper,  ///< skeletons are shortened and displaced [GMW04, eqs. 4, 7, 8]
 };
 
+/// Bends some internodes.
+struct BendRule {
+  Selection internodes;
+  double angle_degrees = 20;  ///< in [0, 180)
+};
+
+/// How a branch ends that is neither cut nor shed.
+enum class TipKind {
+  kRound,    ///< in half a ball
+  kPointed,  ///< in a cone down to kPointRadius
+  kBud,      ///< in a cone that widens to kBudRadius and one down to kPointRadius
+};
+/// In radii of the internode's tip.
+inline constexpr double kPointRadius = 1.0 / 16;
+inline constexpr double kBudRadius = 1.3;
+inline constexpr double kBudWidest = 0.4;  ///< share of a bud's length at which it is widest
+inline constexpr double kShortestTip = 3;
+
+/// Ends some branches.
+struct TipRule {
+  Selection internodes;  ///< by the last ones of branches
+  TipKind kind = TipKind::kPointed;
+  double length = 5;  ///< from the internode's tip, in radii there; at least kShortestTip
+};
+
 struct TreeOptions {
   JunctionKind junction = JunctionKind::kRidge;
   JointKind joint = JointKind::kFaded;
   ContactShape contact;
-  /// Total angle by which every internode that is not collinear with its parent is bent; 0 for straight ones.
+  /// Total angle by which every internode that is not collinear with its parent is bent; 0 for straight ones. [GMW04,
+  /// section 3.6] Where a bent internode alone continues another, both are bent to a common tangent instead, whatever
+  /// their angles. [docs/field.md, "Bend"]
   double bend_angle_degrees = 0;
+  /// Of several rules for an internode the last one counts; without one the angle above, or a round tip.
+  std::vector<BendRule> bends;
+  std::vector<TipRule> tips;
 };
 
 /// The BlobTree of a plant: F(A) = F_A + J(F(B_1), .., F(B_m)) for an internode A that carries B_1 .. B_m, J being
 /// contact or sum by the junction's kind [GMW04, eqs. 5, 6]. Roots that start at the same point are joined like
-/// children of the ground; plants rooted apart are united and do not blend. Cost: linear in internodes, whatever the
-/// depth. Throws `InputError` for contact shapes or bend angles outside their ranges.
+/// children of the ground; plants rooted apart are united and do not blend. Cut ends get their faces and scars their
+/// hollows. [docs/field.md, "Missing organs"] Cost: linear in internodes, whatever the depth. Throws `InputError` for
+/// numbers outside their ranges and for cut ends and scars of internodes that have children.
 BlobTree tree_from_skeleton(const Skeleton& skeleton, const TreeOptions& options = {});
 
-/// The tree, and which of its nodes is each internode's primitive.
+/// Of a shed internode, which has no primitive.
+inline constexpr NodeId kNoNode = 0xffffffff;
+
+/// The tree, which of its nodes is each internode's primitive, and the skeleton that these internodes are of: with those
+/// that curved axes and tips add.
 struct PlantTree {
   BlobTree tree;
   std::vector<NodeId> primitives;  ///< by internode
+  Skeleton skeleton;
 };
-PlantTree plant_from_skeleton(const Skeleton& skeleton, const TreeOptions& options = {});
+PlantTree plant_from_skeleton(Skeleton skeleton, const TreeOptions& options = {});
 
 }  // namespace barkridge

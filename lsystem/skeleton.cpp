@@ -1,10 +1,21 @@
 #include "lsystem/skeleton.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
+#include "base/error.h"
 #include "base/large_room.h"
 
 namespace barkridge {
+
+void check(const ScarShape& shape) {
+  if (!(shape.width > 0)) throw InputError(fmt::format("a scar's width {} is not above 0", shape.width));
+  if (!(shape.depth >= 0)) throw InputError(fmt::format("a scar's depth {} is negative", shape.depth));
+  if (!(0 <= shape.stub && shape.stub <= 1)) {
+    throw InputError(fmt::format("a scar's stub {} is outside its range: 0 <= stub <= 1", shape.stub));
+  }
+}
 
 ChildTable child_table(const Skeleton& skeleton) {
   const std::size_t count = skeleton.internodes.size();
@@ -27,6 +38,12 @@ Skeleton without_zero_lengths(Skeleton skeleton) {
   std::vector<InternodeId> new_ids;
   resize_large(new_ids, skeleton.internodes.size());
   const auto moved = [&](InternodeId id) { return id == kNoInternode ? id : new_ids[static_cast<std::size_t>(id)]; };
+  const auto is_dropped = [&](InternodeId id) {
+    const Internode& internode = skeleton.internodes[static_cast<std::size_t>(id)];
+    return internode.base == internode.tip;
+  };
+  std::erase_if(skeleton.cut_ends, [&](const CutEnd& end) { return is_dropped(end.internode); });
+  std::erase_if(skeleton.scars, [&](const Scar& scar) { return is_dropped(scar.internode); });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < skeleton.internodes.size(); ++i) {
     Internode internode = skeleton.internodes[i];
@@ -42,6 +59,8 @@ Skeleton without_zero_lengths(Skeleton skeleton) {
   skeleton.internodes.resize(kept);
   for (Organ& organ : skeleton.organs) organ.internode = moved(organ.internode);
   for (ShedBranch& shed : skeleton.shed_branches) shed.parent = moved(shed.parent);
+  for (CutEnd& end : skeleton.cut_ends) end.internode = moved(end.internode);
+  for (Scar& scar : skeleton.scars) scar.internode = moved(scar.internode);
   return skeleton;
 }
 

@@ -26,6 +26,8 @@ struct Internode {
   std::int32_t order = 0;
   /// The derivation step in which its module appeared; 0 where the source does not say.
   std::int32_t birth_step = 0;
+  /// Its index in the skeleton that this one was pruned from; -1 where it has its own. See `identity`.
+  InternodeId source = -1;
 };
 
 /// Something other than an internode that the turtle drew: a leaf surface, a sphere, a disc.
@@ -50,14 +52,47 @@ struct ShedBranch {
   double age = 0;         ///< derivation steps since it was shed
 };
 
+/// The end of a branch whose rest was sawn or broken off: a plane through the tip of an internode without children.
+struct CutEnd {
+  InternodeId internode = kNoInternode;
+  Vec3 normal{0, 1, 0};  ///< towards what is missing; of length 1, at most kSteepestCutDegrees from the axis
+  double splinters = 0;  ///< height of the splinters of a torn break over the plane, in tip radii; 0 for a clean cut
+};
+inline constexpr double kSteepestCutDegrees = 60;
+inline constexpr double kLongestSplinters = 20;
+
+/// What a shed branch leaves on the branch that carried it: a low stub with a hollow. Lengths in base radii of the shed
+/// branch, heights along the bark's normal where its axis left the bark.
+struct ScarShape {
+  double width = 1;    ///< radius of the hollow, > 0
+  double depth = 0.3;  ///< of the hollow's floor below the stub's top, >= 0
+  double stub = 0.3;   ///< height of the stub's top over the bark, from 0 to 1
+};
+/// Throws `InputError` that names the value and its range.
+void check(const ScarShape& shape);
+
+struct Scar {
+  InternodeId internode = kNoInternode;  ///< the shed branch's first internode: without children, with a parent
+  ScarShape shape;
+};
+
 /// A branching structure. Parents come before children; both ends of every internode differ.
 struct Skeleton {
   std::vector<Internode> internodes;
   std::vector<Organ> organs;
   std::vector<ShedBranch> shed_branches;
+  /// In the order of their internodes; no internode has more than one of these.
+  std::vector<CutEnd> cut_ends;
+  std::vector<Scar> scars;
   /// Internodes of zero length that were dropped, their children attached to their parents.
   std::size_t dropped_internodes = 0;
 };
+
+/// The number by which rules know an internode, however much was pruned before.
+inline InternodeId identity(const Skeleton& skeleton, std::size_t index) {
+  const InternodeId source = skeleton.internodes[index].source;
+  return source == kNoInternode ? static_cast<InternodeId>(index) : source;
+}
 
 /// The children of every internode, by index, in the skeleton's order, without a vector each: those of internode `i`
 /// are `children[first[i]] .. children[first[i + 1] - 1]`. Roots are the children of index `internodes.size()`.
@@ -68,12 +103,12 @@ struct ChildTable {
 ChildTable child_table(const Skeleton& skeleton);
 
 /// Drops internodes whose ends coincide, attaches their children to their parents, and counts them. Organs and what
-/// was shed follow.
+/// was shed follow; cut ends and scars of what is dropped go with it.
 Skeleton without_zero_lengths(Skeleton skeleton);
 
 /// The skeleton table: a first line `# barkridge skeleton 1`, then a line an internode,
 /// `id parent x0 y0 z0 x1 y1 z1 r0 r1`, parents before children, parent -1 at a root, 9 significant digits.
-/// Reading accepts ids in any order as long as parents precede children, blank lines and further `#` comments; it
+/// Organs, cut ends and scars are not written. Reading accepts ids in any order as long as parents precede children, blank lines and further `#` comments; it
 /// throws `InputError` for a wrong header, a wrong number of fields, numbers that are not finite, radii not above zero,
 /// repeated ids and unknown parents. Orders are derived: the thickest child continues its parent's order.
 std::string write_skeleton_table(const Skeleton& skeleton);

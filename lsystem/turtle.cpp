@@ -14,6 +14,7 @@
 
 #include "lsystem/homomorphism.h"
 #include "lsystem/machine.h"
+#include "lsystem/prune.h"
 
 namespace barkridge {
 
@@ -84,6 +85,7 @@ class Turtle {
       throw InputError(fmt::format("{}: this `[` lacks its `]`", describe(now_.opened_at)));
     }
     report(options_.progress, 1);
+    sort_ends();
     thicken(skeleton_, options_.growth);
     return std::move(skeleton_);
   }
@@ -206,6 +208,11 @@ class Turtle {
       ++skeleton_.dropped_internodes;
       return;
     }
+    add_internode(base, now_.position);
+    segment_is_open_ = true;
+  }
+
+  void add_internode(const Vec3& base, const Vec3& tip) {
     if (!std::isfinite(now_.width)) fail("a segment begins with infinite width here");
     if (now_.width == 0) fail("a segment begins with width 0 here");
     if (now_.width < 0) fail(fmt::format("a segment begins with the negative width {:g} here", now_.width));
@@ -214,7 +221,7 @@ class Turtle {
     }
     Internode internode;
     internode.base = base;
-    internode.tip = now_.position;
+    internode.tip = tip;
     internode.base_radius = now_.width / 2;
     internode.tip_radius = internode.base_radius;
     internode.parent = now_.internode;
@@ -225,7 +232,6 @@ class Turtle {
     now_.internode = static_cast<InternodeId>(skeleton_.internodes.size());
     now_.begins_branch = false;
     skeleton_.internodes.push_back(internode);
-    segment_is_open_ = true;
   }
 
   static std::size_t max_id() { return static_cast<std::size_t>(std::numeric_limits<InternodeId>::max()); }
@@ -338,7 +344,7 @@ class Turtle {
         (command == 'D' && letter->parameter_count == 0)) {
       return obey_at_with_suffix(command, letter->parameter_count > 0);
     }
-    if (std::string_view(",;ocOvRMLSDIJ#!").find(command) == std::string_view::npos) return;
+    if (std::string_view(",;ocOvRMLSDIJ#!Kk").find(command) == std::string_view::npos) return;
     modules_.take_operand();
     switch (command) {
       case 'o':
@@ -354,9 +360,54 @@ class Turtle {
       case 'D':
         now_.scale = value();
         return;
+      case 'K':
+        return cut_segment();
+      case 'k':
+        return leave_scar();
       default:
         return;  // colours of the back side, labels, contours and the like
     }
+  }
+
+  // Marks of missing organs, which cpfg does not know.
+
+  double value_in(std::size_t index, double otherwise, double lo, double hi, const char* what) const {
+    if (modules_.parameters().size() <= index) return otherwise;
+    const double x = value(index);
+    if (!(lo <= x && x <= hi)) fail(fmt::format("{} {:g} is outside its range, {:g} to {:g}", what, x, lo, hi));
+    return x;
+  }
+
+  void cut_segment() {
+    const double tilt = value_in(0, 0, -kSteepestCutDegrees, kSteepestCutDegrees, "the cut's tilt");
+    const double splinters = value_in(1, 0, 0, kLongestSplinters, "the splinters' height");
+    if (now_.internode == kNoInternode) fail("there is no segment to cut here");
+    const Internode& cut = skeleton_.internodes[static_cast<std::size_t>(now_.internode)];
+    const Vec3 axis = glm::normalize(cut.tip - cut.base);
+    skeleton_.cut_ends.push_back({now_.internode, tilted_away(axis, now_.last_down, tilt), splinters});
+    modules_.skip_branch();
+  }
+
+  void leave_scar() {
+    ScarShape shape;
+    shape.width = value_in(0, shape.width, 1e-3, 1e3, "the scar's width");
+    shape.depth = value_in(1, shape.depth, 0, 1e3, "the scar's depth");
+    shape.stub = value_in(2, shape.stub, 0, 1, "the stub's height");
+    if (now_.internode == kNoInternode) fail("there is no segment to leave a scar on here");
+    const double carrier_radius = skeleton_.internodes[static_cast<std::size_t>(now_.internode)].tip_radius;
+    add_internode(now_.position, now_.position + stub_length(carrier_radius, now_.width / 2) * now_.heading);
+    skeleton_.scars.push_back({now_.internode, shape});
+    modules_.skip_branch();
+  }
+
+  // Branches are marked before what carries them.
+  void sort_ends() {
+    const auto by_internode = [](const auto& a, const auto& b) { return a.internode < b.internode; };
+    const auto same = [](const auto& a, const auto& b) { return a.internode == b.internode; };
+    std::vector<CutEnd>& ends = skeleton_.cut_ends;
+    std::stable_sort(ends.begin(), ends.end(), by_internode);
+    ends.erase(std::unique(ends.begin(), ends.end(), same), ends.end());
+    std::sort(skeleton_.scars.begin(), skeleton_.scars.end(), by_internode);
   }
 
   void obey_at_with_suffix(char command, bool has_parameters) {

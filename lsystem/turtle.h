@@ -43,7 +43,9 @@ struct TurtleOptions {
 /// A segment's parent is the last segment before it on its branch, or before the bracket that its branch begins with; a
 /// move without drawing changes nothing about that, so that a gap may lie between a segment and its parent. A segment's
 /// base has the width at its `F`, its tip the width at the next command that ends it: a tip of width 0 is drawn 1e-7
-/// wide, as in cpfg. Segments of zero length are dropped and counted, and their children belong to their parents.
+/// wide, as in cpfg. `@K` makes the last segment's tip a cut end, `@k` leaves a scar here, and both pass over the rest
+/// of the branch; what stands beyond them already stays until `prune`. Segments of zero length are dropped and counted,
+/// and their children belong to their parents.
 ///
 /// Where the word keeps its cuts, each branch that was shed with a segment in it is recorded, as it was when it was
 /// shed but where the plant now has its place.

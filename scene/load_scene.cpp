@@ -134,11 +134,13 @@ void check_exclusions(const std::vector<Setting>& settings) {
   }
 }
 
-// What an override gives, and what cannot stand beside it, leaves the file's settings.
-void remove_overridden(std::vector<Setting>& settings, const std::vector<Setting>& overriding) {
+// What an override gives leaves the settings before it, an array of tables with all that is in it; and so does what
+// cannot stand beside it, from a file.
+void remove_overridden(std::vector<Setting>& settings, const std::vector<Setting>& overriding, bool from_file) {
   std::erase_if(settings, [&](const Setting& setting) {
     return std::any_of(overriding.begin(), overriding.end(), [&](const Setting& other) {
-      return setting.key == other.key || exclude_each_other(setting.key, other.key);
+      return setting.key == other.key || setting.key.starts_with(other.key + "[].") ||
+             (from_file && exclude_each_other(setting.key, other.key));
     });
   });
 }
@@ -220,8 +222,9 @@ Override parse_override(const std::string& definition) {
 Scene load_scene(const std::string& path, std::span<const Override> overrides) {
   std::vector<Setting> overriding;
   for (const Override& o : overrides) {
-    std::erase_if(overriding, [&](const Setting& earlier) { return earlier.key == o.key; });
-    overriding.push_back(read_single_setting(o.key, o.value, o.origin));
+    const std::vector<Setting> given = read_override_settings(o.key, o.value, o.origin);
+    remove_overridden(overriding, given, false);
+    overriding.insert(overriding.end(), given.begin(), given.end());
   }
   std::vector<Setting> settings = settings_of_file(path);
   // What the file says must be right even where it is overridden.
@@ -230,7 +233,7 @@ Scene load_scene(const std::string& path, std::span<const Override> overrides) {
   Scene checked;
   for (const Setting& setting : settings) apply(setting, checked);
 
-  remove_overridden(settings, overriding);
+  remove_overridden(settings, overriding, true);
   settings.insert(settings.end(), overriding.begin(), overriding.end());
   Scene scene;
   for (const Setting& setting : settings) apply(setting, scene);

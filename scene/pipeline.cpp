@@ -126,8 +126,8 @@ Model make_model(const Scene& scene, const Listener& listener) {
 }
 
 Model make_model(const Scene& scene, Skeleton skeleton) {
-  PlantTree plant = plant_from_skeleton(skeleton, scene.tree);
-  return {std::move(skeleton), std::move(plant.tree), std::move(plant.primitives)};
+  PlantTree plant = plant_from_skeleton(prune(std::move(skeleton), scene.cuts, scene.scars), scene.tree);
+  return {std::move(plant.skeleton), std::move(plant.tree), std::move(plant.primitives)};
 }
 
 double thinnest_radius(const Model& model) {

@@ -56,7 +56,8 @@ Skeleton draw(const Scene& scene, const Growth& growth, const Listener& listener
 /// `InputError` if a tree is its model.
 Skeleton make_skeleton(const Scene& scene, const Listener& listener = {});
 
-/// A model ready for compilation. The skeleton is empty where the tree was written by hand.
+/// A model ready for compilation. The skeleton is without what the scene cuts and sheds, and empty where the tree was
+/// written by hand.
 struct Model {
   Skeleton skeleton;
   BlobTree tree;

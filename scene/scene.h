@@ -6,10 +6,12 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "bark/bark_shader.h"
 #include "blobtree/from_skeleton.h"
 #include "lsystem/derive.h"
+#include "lsystem/prune.h"
 #include "lsystem/turtle.h"
 #include "raytrace/render.h"
 
@@ -93,6 +95,9 @@ struct Scene {
   std::map<std::string, std::string> defines;
   TurtleOptions turtle;
   SceneSequence sequence;
+  /// Branches that are missing, in the order of the file.
+  std::vector<CutRule> cuts;
+  std::vector<ScarRule> scars;
   TreeOptions tree;
   SurfaceOptions surface;
   SceneCamera camera;

@@ -57,12 +57,27 @@ void add_skeleton(Sha256& hash, const Skeleton& skeleton) {
     append(bytes, static_cast<std::uint64_t>(internode.parent));
     hash.add(bytes);
   }
+  for (const CutEnd& end : skeleton.cut_ends) {
+    bytes.clear();
+    append(bytes, static_cast<std::uint64_t>(end.internode));
+    append(bytes, end.normal);
+    append(bytes, end.splinters);
+    hash.add(bytes);
+  }
+  for (const Scar& scar : skeleton.scars) {
+    bytes.clear();
+    append(bytes, static_cast<std::uint64_t>(scar.internode));
+    append(bytes, scar.shape.width);
+    append(bytes, scar.shape.depth);
+    append(bytes, scar.shape.stub);
+    hash.add(bytes);
+  }
 }
 
 bool is_seen(std::string_view key) {
   if (key == "bark.image") return false;  // what stands there is
-  for (const std::string_view section : {"surface.", "junction.", "bend.", "camera.", "sun.", "sky.", "ground.",
-                                         "material.", "bark.", "wood.", "texture."}) {
+  for (const std::string_view section : {"surface.", "junction.", "bend.", "tip", "cut", "scar", "camera.", "sun.",
+                                         "sky.", "ground.", "material.", "bark.", "wood.", "texture."}) {
     if (key.starts_with(section)) return true;
   }
   return false;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -66,6 +67,8 @@ template <typename Integer>
 std::enable_if_t<std::is_integral_v<Integer>, std::string> text_of(Integer x) {
   return fmt::format("{}", x);
 }
+std::string text_of(const Span& span) { return fmt::format("[{}, {}]", span.from, span.to); }
+std::string text_of(const std::vector<InternodeId>& ids) { return fmt::format("[{}]", fmt::join(ids, ", ")); }
 template <typename T>
 std::string text_of(const std::optional<T>& x) {
   return x ? text_of(*x) : std::string();
@@ -185,6 +188,83 @@ SceneKey choice(std::string name, std::vector<Name<Choice>> names, At at, std::s
             }
             return std::string();
           }};
+}
+
+// ---- Lists of rules: an array of tables, of which each is a rule. `rules` maps a scene to the list.
+
+template <typename Rules>
+SceneKey list(std::string name, Rules rules, std::string meaning) {
+  return {std::move(name), "an array of tables", std::move(meaning),
+          [rules](Scene& scene, const Setting& setting) {
+            const auto* tables = std::get_if<TableArray>(&setting.value);
+            const auto* nothing = std::get_if<std::vector<double>>(&setting.value);
+            if (!tables && !(nothing && nothing->empty())) return false;
+            rules(scene).assign(tables ? tables->size : 0, {});
+            return true;
+          },
+          [rules](const Scene& scene) {
+            std::string text;
+            for (std::size_t i = 0; i < rules(scene).size(); ++i) text += i == 0 ? "{}" : ", {}";
+            return '[' + text + ']';
+          }};
+}
+
+// A key of the list's first rule as a key of the one that the setting is for, or of all.
+template <typename Rules>
+SceneKey in_list(SceneKey of_first, Rules rules) {
+  SceneKey key = of_first;
+  key.set = [of_first, rules](Scene& scene, const Setting& setting) {
+    auto& all = rules(scene);
+    all.resize(std::max(all.size(), setting.element.value_or(0) + 1));
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (setting.element.value_or(i) != i) continue;
+      Scene one;
+      rules(one) = {all[i]};
+      if (!of_first.set(one, setting)) return false;
+      all[i] = rules(one).front();
+    }
+    return true;
+  };
+  key.value = [of_first, rules](const Scene& scene) {
+    std::string text;
+    for (std::size_t i = 0; i < std::max<std::size_t>(rules(scene).size(), 1); ++i) {
+      Scene one;
+      rules(one).resize(1);
+      if (!rules(scene).empty()) rules(one) = {rules(scene)[i]};
+      text += (i == 0 ? "" : "; ") + of_first.value(one);
+    }
+    return text;
+  };
+  return key;
+}
+
+template <typename At>
+SceneKey range(std::string name, At at, std::string meaning) {
+  return key_of(std::move(name), "a number of at least 0, or two, first and last of a range", std::move(meaning), at,
+                [at](Scene& scene, const Setting& setting) {
+                  std::vector<double> ends;
+                  if (const auto* numbers = std::get_if<std::vector<double>>(&setting.value)) ends = *numbers;
+                  if (const std::optional<double> x = number_of(setting.value)) ends = {*x, *x};
+                  if (ends.size() != 2 || !at_least(0).contains(ends[0]) || !(ends[0] <= ends[1])) return false;
+                  at(scene) = {ends[0], ends[1]};
+                  return true;
+                });
+}
+
+template <typename At>
+SceneKey ids(std::string name, At at, std::string meaning) {
+  return key_of(std::move(name), "integers of at least 0, like [3, 17]", std::move(meaning), at,
+                [at](Scene& scene, const Setting& setting) {
+                  const auto* numbers = std::get_if<std::vector<double>>(&setting.value);
+                  if (!numbers) return false;
+                  std::vector<InternodeId> found;
+                  for (const double x : *numbers) {
+                    if (!(0 <= x && x <= std::numeric_limits<InternodeId>::max() && x == std::floor(x))) return false;
+                    found.push_back(static_cast<InternodeId>(x));
+                  }
+                  at(scene) = found;
+                  return true;
+                });
 }
 
 // The path or text stays in `text` until `load_scene` has read the file or found the text's place.
@@ -359,9 +439,6 @@ void add_surface_keys(Keys& keys) {
       "junction.allow_large_swelling", [](auto& s) -> auto& { return s.tree.contact.allow_large_swelling; },
       "Lets the swelling exceed a third of the width."));
   keys.push_back(number(
-      "bend.angle_degrees", {0, 180, false, true}, [](auto& s) -> auto& { return s.tree.bend_angle_degrees; },
-      "Total angle by which internodes are bent that leave their parent's direction."));
-  keys.push_back(number(
       "mesh.cell_size", above(0), [](auto& s) -> auto& { return s.cell_size; },
       "Edge length of the sampling cells. Left out, half the thinnest branch's radius."));
   keys.push_back(integer(
@@ -370,6 +447,90 @@ void add_surface_keys(Keys& keys) {
   keys.push_back(flag(
       "mesh.attributes", [](auto& s) -> auto& { return s.mesh_attributes; },
       "Whether meshes get texture coordinates, attributes and, where bark is not plain, colours."));
+}
+
+// `selection` maps a list's rule to its selection; `what` is what it selects, `by` what of it the numbers are.
+template <typename Rules, typename Of>
+void add_selection_keys(Keys& keys, const std::string& list, Rules rules, Of selection, const std::string& what,
+                        const std::string& by) {
+  const auto add = [&](SceneKey key) { keys.push_back(in_list(std::move(key), rules)); };
+  const auto of_first = [ rules, selection ](auto& scene) -> auto& { return selection(rules(scene).front()); };
+  add(ids(
+      list + "[].ids", [of_first](auto& s) -> auto& { return of_first(s).ids; },
+      "Only these internodes, by their numbers in the skeleton as it was grown or read. Left out or empty, any."));
+  add(range(
+      list + "[].order", [of_first](auto& s) -> auto& { return of_first(s).order; },
+      fmt::format("Only {} of these orders{}; the trunk's is 0.", what, by)));
+  add(range(
+      list + "[].age", [of_first](auto& s) -> auto& { return of_first(s).age; },
+      fmt::format("Only {} of these ages{}, in derivation steps; the youngest internode's is 0.", what, by)));
+  add(range(
+      list + "[].radius", [of_first](auto& s) -> auto& { return of_first(s).radius; },
+      fmt::format("Only {} of these base radii{}.", what, by)));
+  add(number(
+      list + "[].fraction", from_to(0, 1), [of_first](auto& s) -> auto& { return of_first(s).fraction; },
+      fmt::format("Share of these {} that is drawn at random.", what)));
+  add(integer(
+      list + "[].seed", kLeast, kMost, [of_first](auto& s) -> auto& { return of_first(s).seed; },
+      "Seed of that draw."));
+}
+
+void add_missing_organ_keys(Keys& keys) {
+  const auto cuts = [](auto& s) -> auto& { return s.cuts; };
+  const auto add_to_cut = [&](SceneKey key) { keys.push_back(in_list(std::move(key), cuts)); };
+  keys.push_back(list("cut", cuts, "Branches that are sawn or broken off."));
+  add_to_cut(number(
+      "cut[].position", {0, 1, true, true}, [](auto& s) -> auto& { return s.cuts.front().position; },
+      "Share of the branch's length that stays; with `ids`, of the internode's."));
+  add_to_cut(number(
+      "cut[].tilt_degrees", from_to(-kSteepestCutDegrees, kSteepestCutDegrees),
+      [](auto& s) -> auto& { return s.cuts.front().tilt_degrees; },
+      "Tilt of the cut: the face turns away from the direction of what carries the branch, or towards it."));
+  add_to_cut(number(
+      "cut[].splinters", from_to(0, kLongestSplinters), [](auto& s) -> auto& { return s.cuts.front().splinters; },
+      "Height of the splinters of a torn break, in radii of the branch there; 0 for a clean cut."));
+  const auto branches = [](auto& rule) -> auto& { return rule.branches; };
+  add_selection_keys(keys, "cut", cuts, branches, "branches", " at their bases");
+  const auto scars = [](auto& s) -> auto& { return s.scars; };
+  const auto add_to_scar = [&](SceneKey key) { keys.push_back(in_list(std::move(key), scars)); };
+  keys.push_back(list("scar", scars, "Branches that are shed and leave scars."));
+  add_to_scar(number(
+      "scar[].width", above(0), [](auto& s) -> auto& { return s.scars.front().shape.width; },
+      "Radius of the hollow, in base radii of the shed branch."));
+  add_to_scar(number(
+      "scar[].depth", at_least(0), [](auto& s) -> auto& { return s.scars.front().shape.depth; },
+      "Depth of the hollow below the stub's top, in such radii."));
+  add_to_scar(number(
+      "scar[].stub", from_to(0, 1), [](auto& s) -> auto& { return s.scars.front().shape.stub; },
+      "Height of the stub over the bark, in such radii."));
+  add_selection_keys(keys, "scar", scars, branches, "branches", " at their bases");
+}
+
+void add_axis_keys(Keys& keys) {
+  const auto internodes = [](auto& rule) -> auto& { return rule.internodes; };
+  keys.push_back(number(
+      "bend.angle_degrees", {0, 180, false, true}, [](auto& s) -> auto& { return s.tree.bend_angle_degrees; },
+      "Total angle by which internodes are bent that leave their parent's direction."));
+  const auto bends = [](auto& s) -> auto& { return s.tree.bends; };
+  keys.push_back(list("bend.rule", bends, "Angles for some internodes; the last rule for one counts."));
+  keys.push_back(in_list(number(
+                             "bend.rule[].angle_degrees", {0, 180, false, true},
+                             [](auto& s) -> auto& { return s.tree.bends.front().angle_degrees; }, "Their angle."),
+                         bends));
+  add_selection_keys(keys, "bend.rule", bends, internodes, "internodes", "");
+  const auto tips = [](auto& s) -> auto& { return s.tree.tips; };
+  keys.push_back(list("tip", tips, "How branches end; the last rule for one counts, and without any it ends round."));
+  keys.push_back(
+      in_list(choice<TipKind>(
+                  "tip[].kind", {{TipKind::kRound, "round"}, {TipKind::kPointed, "pointed"}, {TipKind::kBud, "bud"}},
+                  [](auto& s) -> auto& { return s.tree.tips.front().kind; }, "In half a ball, a point or a bud."),
+              tips));
+  keys.push_back(
+      in_list(number(
+                  "tip[].length", at_least(kShortestTip), [](auto& s) -> auto& { return s.tree.tips.front().length; },
+                  "Length of a point or bud, in tip radii."),
+              tips));
+  add_selection_keys(keys, "tip", tips, internodes, "last internodes", "");
 }
 
 void add_camera_keys(Keys& keys) {
@@ -529,6 +690,8 @@ Keys make_keys() {
   add_lsystem_keys(keys);
   add_turtle_keys(keys);
   add_growth_keys(keys);
+  add_missing_organ_keys(keys);
+  add_axis_keys(keys);
   add_surface_keys(keys);
   add_camera_keys(keys);
   add_light_keys(keys);

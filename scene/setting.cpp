@@ -119,6 +119,9 @@ SettingValue value_of(const toml::node& node) {
     case toml::node_type::string:
       return node.as_string()->get();
     case toml::node_type::array:
+      if (!node.as_array()->empty() && node.as_array()->is_homogeneous<toml::table>()) {
+        return TableArray{node.as_array()->size()};
+      }
       if (auto numbers = numbers_of(*node.as_array())) return std::move(*numbers);
       return UnusableValue{"an array of other things than numbers"};
     case toml::node_type::table:
@@ -133,18 +136,26 @@ std::string quoted_unless_bare(std::string_view part) {
   return fmt::format("\"{}\"", part);
 }
 
-// Recursion is as deep as keys have parts: see kMaxKeyParts.
-void flatten(const toml::table& table, const std::string& prefix, const Lines& lines, std::vector<Setting>& settings) {
+// Recursion is as deep as keys have parts, and once more for an array: see kMaxKeyParts.
+void flatten(const toml::table& table, const std::string& prefix, const Lines& lines, std::vector<Setting>& settings,
+             std::optional<std::size_t> element = {}) {
   for (const auto& [key, node] : table) {
     const std::string name = prefix + quoted_unless_bare(key.str());
     if (node.is_table() && !node.as_table()->empty()) {
-      flatten(*node.as_table(), name + '.', lines, settings);
+      flatten(*node.as_table(), name + '.', lines, settings, element);
       continue;
     }
     const toml::source_position begin = node.source().begin;
     const SourceLocation content = lines.content_place(begin);
-    settings.push_back(
-        {name, value_of(node), lines.place(key.source().begin), lines.place(begin), content.line, content.column});
+    SettingValue value = value_of(node);
+    const bool is_table_array = std::holds_alternative<TableArray>(value);
+    if (is_table_array && element) value = UnusableValue{"an array of tables in another one"};
+    settings.push_back({name, std::move(value), lines.place(key.source().begin), lines.place(begin), content.line,
+                        content.column, element});
+    if (!is_table_array || element) continue;
+    for (std::size_t i = 0; i < node.as_array()->size(); ++i) {
+      flatten(*node.as_array()->get(i)->as_table(), name + "[].", lines, settings, i);
+    }
   }
 }
 
@@ -163,29 +174,38 @@ std::vector<Setting> read_settings(std::string_view text, const std::string& fil
   const Lines lines(text, file);
   std::vector<Setting> settings;
   flatten(parse(text, file, lines), "", lines, settings);
-  std::sort(settings.begin(), settings.end(), [](const Setting& a, const Setting& b) {
+  std::stable_sort(settings.begin(), settings.end(), [](const Setting& a, const Setting& b) {
     return std::pair(a.key_place.line, a.key_place.column) < std::pair(b.key_place.line, b.key_place.column);
   });
   return settings;
 }
 
-Setting read_single_setting(const std::string& key, const std::string& value, const std::string& origin) {
-  Setting setting;
-  setting.value = value;
+std::vector<Setting> read_override_settings(const std::string& key, const std::string& value,
+                                            const std::string& origin) {
+  constexpr std::string_view kName = "value";
+  std::vector<Setting> settings;
   try {
-    const std::vector<Setting> settings = read_settings("value = " + value, origin);
-    if (settings.size() == 1 && settings[0].key == "value") setting.value = settings[0].value;
+    settings = read_settings(fmt::format("{} = {}", kName, value), origin);
+    const bool is_one_value = std::all_of(settings.begin(), settings.end(), [&](const Setting& setting) {
+      return setting.key == kName || setting.key.starts_with("value[].");
+    });
+    if (!is_one_value || settings.empty() || settings[0].key != kName) settings.clear();
   } catch (const InputError&) {
     // A bare word is a text.
   }
-  setting.key = key;
-  setting.key_place = setting.value_place = SourceLocation{origin, 0, 0, ""};
-  return setting;
+  if (settings.empty()) settings.push_back({std::string(kName), value, {}, {}, 1, 1, {}});
+  for (Setting& setting : settings) {
+    setting.key.replace(0, kName.size(), key);
+    setting.key_place = setting.value_place = SourceLocation{origin, 0, 0, ""};
+    setting.text_line = setting.text_column = 1;
+  }
+  return settings;
 }
 
 std::string describe(const SettingValue& value) {
   struct Describer {
     std::string operator()(const UnusableValue& v) const { return v.description; }
+    std::string operator()(const TableArray&) const { return "an array of tables"; }
     std::string operator()(bool v) const { return v ? "true" : "false"; }
     std::string operator()(std::int64_t v) const { return fmt::format("{}", v); }
     std::string operator()(double v) const { return fmt::format("{:#}", v); }

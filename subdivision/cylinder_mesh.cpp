@@ -9,7 +9,7 @@ namespace barkridge {
 ControlMesh cylinder_mesh(const Skeleton& skeleton, const StemOptions& options) {
   const Branches branches = branches_of(skeleton, BranchEnd::kAtTips);
   StemBuilder builder(skeleton, branches, branches.nodes.size(), options);
-  const bool points = options.tip == TipKind::kTapered;
+  const bool points = options.tip == StemTip::kTapered;
   for (const Branch& branch : branches.branches) {
     const auto axis = branches.axis(branch);
     StemRing ring;

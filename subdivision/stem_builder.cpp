@@ -160,9 +160,9 @@ void StemBuilder::end_base(const StemRing& ring) {
 }
 
 void StemBuilder::end_tip(const StemRing& ring, const Vec3& tip) {
-  const bool tapered = options_.tip == TipKind::kTapered;
+  const bool tapered = options_.tip == StemTip::kTapered;
   add_fan(ring, tapered ? tip : ring.center, true);
-  if (options_.tip == TipKind::kSharp) crease_rim(ring);
+  if (options_.tip == StemTip::kSharp) crease_rim(ring);
   if (tapered) mesh_.sharp_vertices.push_back({static_cast<std::uint32_t>(mesh_.positions.size() - 1)});
 }
 

@@ -3,7 +3,7 @@
 namespace barkridge {
 
 /// How a branch ends where nothing grows on.
-enum class TipKind {
+enum class StemTip {
   kCapped,   ///< by a flat cap at its tip, which refinement rounds
   kSharp,    ///< by a flat cap whose rim is a crease: a branch that was cut
   kTapered,  ///< by a point: the last internode narrows to its tip, which stays where it is
@@ -22,7 +22,7 @@ enum class StemTexture {
 
 /// What control meshes of stems have in common.
 struct StemOptions {
-  TipKind tip = TipKind::kCapped;
+  StemTip tip = StemTip::kCapped;
   /// Whether the base of a plant is closed, by a flat cap whose rim is a crease; otherwise it is a boundary.
   bool closed_base = true;
   StemTexture texture = StemTexture::kReflected;

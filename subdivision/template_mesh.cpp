@@ -63,7 +63,7 @@ class TemplateDresser {
     };
     if (cut.collar > 0) reach(point_on(axis, cut.base + cut.collar), cut.base + cut.collar);
 
-    const bool joint = branch.child_count > 0, point = !joint && options_.stem.tip == TipKind::kTapered;
+    const bool joint = branch.child_count > 0, point = !joint && options_.stem.tip == StemTip::kTapered;
     const double scale = options_.joint.gap * options_.stem.radius_scale;
     const double from = along + (branch.parent >= 0 ? scale * axis.front().radius : 0);
     const double to = length - cut.tip - (joint ? scale * axis.back().radius : 0);

@@ -17,7 +17,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
     {"base", {}},
     {"mesh", {"base"}},
     {"lsystem", {"base"}},
-    {"blobtree", {"base", "lsystem/skeleton.h"}},
+    {"blobtree", {"base", "lsystem/skeleton.h", "lsystem/selection.h"}},
     {"subdivision", {"base", "mesh", "lsystem/skeleton.h"}},
     {"polygonize", {"base", "mesh", "blobtree/field.h"}},
     {"raytrace", {"base", "mesh", "blobtree/field.h"}},

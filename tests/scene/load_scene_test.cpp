@@ -122,6 +122,69 @@ TEST_CASE("overrides replace what the scene says, and the last of them wins") {
   CHECK_FALSE(scene.ground.enabled);
 }
 
+TEST_CASE("arrays of tables become lists of rules in their order") {
+  const Scene scene = load_text(kModel + R"toml([[cut]]
+position = 0.25
+ids = [3, 7]
+[[scar]]
+[[cut]]
+tilt_degrees = -20
+order = 2
+radius = [0.5, inf]
+[bend]
+angle_degrees = 10
+rule = [{angle_degrees = 20, order = [1, 3]}, {fraction = 0.5, seed = 4}]
+[[tip]]
+kind = "bud"
+)toml");
+  REQUIRE(scene.cuts.size() == 2);
+  CHECK(scene.cuts[0].position == 0.25);
+  CHECK(scene.cuts[0].tilt_degrees == 0);
+  CHECK(scene.cuts[0].branches.ids == std::vector<InternodeId>{3, 7});
+  CHECK(scene.cuts[1].position == CutRule{}.position);
+  CHECK(scene.cuts[1].tilt_degrees == -20);
+  CHECK(scene.cuts[1].branches.order.from == 2);
+  CHECK(scene.cuts[1].branches.order.to == 2);
+  CHECK(scene.cuts[1].branches.radius.contains(1e9));
+  CHECK(scene.scars.size() == 1);
+  CHECK(scene.tree.bend_angle_degrees == 10);
+  REQUIRE(scene.tree.bends.size() == 2);
+  CHECK(scene.tree.bends[0].angle_degrees == 20);
+  CHECK(scene.tree.bends[0].internodes.order.to == 3);
+  CHECK(scene.tree.bends[1].internodes.seed == 4);
+  REQUIRE(scene.tree.tips.size() == 1);
+  CHECK(scene.tree.tips[0].kind == TipKind::kBud);
+}
+
+TEST_CASE("an override replaces a list, or a key in all of its rules") {
+  const std::string text = kModel + "[[cut]]\nposition = 0.2\n[[cut]]\nposition = 0.3\ntilt_degrees = 9\n";
+  const Scene replaced = load_text(text, {"cut=[{position = 0.7}]"});
+  REQUIRE(replaced.cuts.size() == 1);
+  CHECK(replaced.cuts[0].position == 0.7);
+  CHECK(replaced.cuts[0].tilt_degrees == 0);
+  CHECK(load_text(text, {"cut=[]"}).cuts.empty());
+  const Scene changed = load_text(text, {"cut[].position=0.6"});
+  REQUIRE(changed.cuts.size() == 2);
+  CHECK(changed.cuts[0].position == 0.6);
+  CHECK(changed.cuts[1].position == 0.6);
+  CHECK(changed.cuts[1].tilt_degrees == 9);
+  CHECK(load_text(kModel, {"scar[].width=2"}).scars.at(0).shape.width == 2);
+}
+
+TEST_CASE("mistakes in lists have their places") {
+  const InputError unknown = error_of(kModel + "[[cut]]\nposition = 0.2\n[[cut]]\n  positon = 0.3\n");
+  CHECK(unknown.message() == "unknown key cut[].positon; did you mean cut[].position?");
+  CHECK(unknown.where().line == 5);
+  const InputError range = error_of(kModel + "[[cut]]\n[[cut]]\nposition = 2\n");
+  CHECK(range.message() == "cut[].position: expected a number above 0 and below 1, not 2");
+  CHECK(range.where().line == 4);
+  CHECK_THAT(error_of(kModel + "cut = 5\n").message(), Contains("cut: expected an array of tables, not 5"));
+  CHECK_THAT(error_of(kModel + "[cut]\nposition = 0.5\n").message(), Contains("unknown key cut.position"));
+  CHECK_THAT(error_of(kModel + "[[camera]]\n").message(), Contains("not an array of tables"));
+  CHECK_THAT(error_of(kModel + "[[cut]]\norder = [3, 1]\n").message(), Contains("first and last of a range"));
+  CHECK_THAT(error_of(kModel, {"cut=[{positon = 1}]"}).what(), Contains("-D cut=[{positon = 1}]"));
+}
+
 TEST_CASE("an override takes the place of what cannot stand beside it") {
   const Scene scene = load_text(kModel + "[sun]\nazimuth_degrees = 10\n[camera]\nposition = [1, 2, 3]\n",
                                 {"sun.direction=[0,1,0]", "camera.zoom=2", "model.tree=disc()"});

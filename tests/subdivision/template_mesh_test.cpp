@@ -38,7 +38,7 @@ std::size_t most_coordinates(const ControlMesh& mesh) {
 
 TemplateOptions options_of(std::uint64_t seed) {
   TemplateOptions options;
-  options.stem.tip = std::array{TipKind::kCapped, TipKind::kSharp, TipKind::kTapered}[seed % 3];
+  options.stem.tip = std::array{StemTip::kCapped, StemTip::kSharp, StemTip::kTapered}[seed % 3];
   options.stem.closed_base = seed % 2 == 0;
   options.stem.texture = seed % 5 < 3 ? StemTexture::kReflected : StemTexture::kCylindrical;
   options.joint.thin_ratio = seed % 7 == 0 ? 0 : 1.0 / 3;
@@ -178,10 +178,10 @@ TEST_CASE("tips are flat and smooth, flat and creased, or pointed at the skeleto
   const Skeleton skeleton = chain(5, 10, 0.05);
   ControlMesh mesh = template_mesh(skeleton, options);
   CHECK(mesh.sharp_edges.size() == 6);  // the base's rim
-  options.stem.tip = TipKind::kSharp;
+  options.stem.tip = StemTip::kSharp;
   mesh = template_mesh(skeleton, options);
   CHECK(mesh.sharp_edges.size() == 12);
-  options.stem.tip = TipKind::kTapered;
+  options.stem.tip = StemTip::kTapered;
   mesh = template_mesh(skeleton, options);
   REQUIRE(mesh.sharp_vertices.size() == 1);
   CHECK(glm::distance(mesh.positions[mesh.sharp_vertices[0].vertex], glm::vec3(0, 10, 0)) < 1e-6F);

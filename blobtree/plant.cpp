@@ -1,0 +1,132 @@
+#include "blobtree/plant.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace barkridge {
+
+namespace {
+
+// [GMW04, eqs. 4, 7, 8] Radii stay on the internode's taper line; at least a sphere is left.
+Cone paper_cone(const Internode& a, const Neighbourhood& near, JunctionKind junction) {
+  const double length = glm::distance(a.base, a.tip);
+  double start = 0, shortening = 0;
+  if (near.parent && near.shares_base && junction == JunctionKind::kRidge) {
+    start = std::clamp(near.parent->tip_radius - a.base_radius, 0.0, length);
+  }
+  if (near.child_count > 1 && junction == JunctionKind::kRidge) {
+    shortening = 2.75 * near.thickest_child - a.tip_radius;
+  } else if (near.child_count > 0) {
+    shortening = 1.75 * near.thickest_child;
+  }
+  const double end = std::max(start, length - shortening);
+  const Vec3 axis = (a.tip - a.base) / length;
+  const double taper = (a.tip_radius - a.base_radius) / length;
+  const double thinnest = 1e-3 * std::min(a.base_radius, a.tip_radius);
+  return {a.base + start * axis, a.base + end * axis, a.base_radius + taper * start,
+          std::max(thinnest, a.base_radius + taper * end)};
+}
+
+FadedCone faded_cone(const Internode& a, const Neighbourhood& near) {
+  return {a.base, a.tip, a.base_radius, a.tip_radius, near.parent ? near.parent->tip_radius : 0.0, near.thickest_child};
+}
+
+template <typename Primitive>
+NodeId add_bent(BlobTree& tree, Primitive primitive, const Internode& a, const Arc& arc) {
+  if (!(arc.angle_degrees > 0)) return tree.add(primitive);
+  // The child is straight and as long as the arc; its ends stay as far from the arc's ends as they were from the
+  // chord's.
+  const Bend bend{a.base, a.tip, arc.direction, arc.angle_degrees};
+  const Vec3 axis = (bend.tip - bend.base) / glm::distance(bend.base, bend.tip);
+  primitive.tip += (arc_length(bend) - glm::distance(bend.base, bend.tip)) * axis;
+  return tree.add(bend, {tree.add(primitive)});
+}
+
+double taper_of(const Internode& a) { return (a.tip_radius - a.base_radius) / glm::distance(a.base, a.tip); }
+
+template <typename Marked>
+const Marked* find(const std::vector<Marked>& all, std::size_t i) {
+  if (all.empty()) return nullptr;
+  const auto id = static_cast<InternodeId>(i);
+  const auto at = std::lower_bound(all.begin(), all.end(), id,
+                                   [](const Marked& marked, InternodeId wanted) { return marked.internode < wanted; });
+  return at != all.end() && at->internode == id ? &*at : nullptr;
+}
+
+}  // namespace
+
+Plant::Plant(const Skeleton& skeleton, std::span<const Arc> arcs, const TreeOptions& options)
+    : skeleton_(skeleton), arcs_(arcs), options_(options), table_(child_table(skeleton)) {
+  const auto require_bare = [&](const auto& marked, const char* what) {
+    InternodeId last = kNoInternode;
+    for (const auto& m : marked) {
+      const bool ordered = last < m.internode && m.internode < static_cast<InternodeId>(size());
+      if (!ordered || !children_of(static_cast<std::size_t>(m.internode)).empty()) {
+        throw InputError(
+            fmt::format("{} of internode {}: expected internodes without children, in their order", what, m.internode));
+      }
+      last = m.internode;
+    }
+  };
+  require_bare(skeleton.cut_ends, "a cut end");
+  require_bare(skeleton.scars, "a scar");
+  for (const Scar& scar : skeleton.scars) {
+    check(scar.shape);
+    const auto i = static_cast<std::size_t>(scar.internode);
+    if (internode(i).parent == kNoInternode || cut_end_of(i)) {
+      throw InputError(fmt::format("a scar of internode {}: expected one with a parent and without a cut", i));
+    }
+  }
+}
+
+const CutEnd* Plant::cut_end_of(std::size_t i) const { return find(skeleton_.cut_ends, i); }
+const Scar* Plant::scar_of(std::size_t i) const { return find(skeleton_.scars, i); }
+
+Neighbourhood Plant::neighbourhood_of(std::size_t i) const {
+  Neighbourhood near;
+  for (const InternodeId child : children_of(i)) {
+    if (scar_of(static_cast<std::size_t>(child))) continue;
+    ++near.child_count;
+    near.thickest_child = std::max(near.thickest_child, internode(static_cast<std::size_t>(child)).base_radius);
+  }
+  const InternodeId parent = internode(i).parent;
+  if (parent == kNoInternode) return near;
+  near.parent = &internode(static_cast<std::size_t>(parent));
+  const auto siblings = children_of(static_cast<std::size_t>(parent));
+  int standing = 0;
+  for (std::size_t k = 0; k < siblings.size() && standing < 2; ++k) {
+    standing += scar_of(static_cast<std::size_t>(siblings[k])) == nullptr;
+  }
+  near.shares_base = standing > 1;
+  return near;
+}
+
+NodeId Plant::add_primitive(BlobTree& tree, std::size_t i) const {
+  const Internode& a = internode(i);
+  const Neighbourhood near = neighbourhood_of(i);
+  const auto add = [&](auto primitive) {
+    if (const CutEnd* end = cut_end_of(i)) {
+      const Vec3 axis = (a.tip - a.base) / glm::distance(a.base, a.tip);
+      const double past = length_past_cut(a, end_tangent(a, arc(i)), *end);
+      primitive.tip += past * axis;
+      primitive.tip_radius += past * taper_of(a);
+    }
+    return add_bent(tree, primitive, a, arc(i));
+  };
+  return options_.joint == JointKind::kPaper ? add(paper_cone(a, near, options_.junction)) : add(faded_cone(a, near));
+}
+
+double length_past_cut(const Internode& internode, const Vec3& axis, const CutEnd& end) {
+  const double cosine = std::max(0.1, glm::dot(axis, end.normal));
+  const double tangent = std::sqrt(std::max(0.0, 1 - cosine * cosine)) / cosine;
+  const double wanted = (0.25 + tangent + end.splinters) * internode.tip_radius;
+  // A cone that ends before ends so by itself.
+  const double taper = taper_of(internode);
+  return taper < 0 ? std::min(wanted, -0.9 * internode.tip_radius / taper) : wanted;
+}
+
+}  // namespace barkridge

@@ -1,0 +1,56 @@
+#pragma once
+// A skeleton on its way to a BlobTree: what every internode's primitive must know of its neighbours.
+
+#include <span>
+#include <vector>
+
+#include "blobtree/axes.h"
+#include "blobtree/from_skeleton.h"
+
+namespace barkridge {
+
+/// What an internode's primitive must know of its neighbours. Shed branches are none.
+struct Neighbourhood {
+  const Internode* parent = nullptr;
+  bool shares_base = false;  ///< with other children of its parent
+  std::size_t child_count = 0;
+  double thickest_child = 0;  ///< base radius
+};
+
+class Plant {
+ public:
+  /// All must outlive it. `arcs` may be empty.
+  Plant(const Skeleton& skeleton, std::span<const Arc> arcs, const TreeOptions& options);
+
+  const Skeleton& skeleton() const { return skeleton_; }
+  const TreeOptions& options() const { return options_; }
+  std::size_t size() const { return skeleton_.internodes.size(); }
+  const Internode& internode(std::size_t i) const { return skeleton_.internodes[i]; }
+  bool has_arcs() const { return !arcs_.empty(); }
+  Arc arc(std::size_t i) const { return arcs_.empty() ? Arc{} : arcs_[i]; }
+  /// All children, shed ones too; those of index `size()` are the roots.
+  std::span<const InternodeId> children_of(std::size_t i) const {
+    return std::span(table_.children).subspan(table_.first[i], table_.first[i + 1] - table_.first[i]);
+  }
+  Neighbourhood neighbourhood_of(std::size_t i) const;
+
+  /// Null where there is none.
+  const CutEnd* cut_end_of(std::size_t i) const;
+  const Scar* scar_of(std::size_t i) const;
+
+  /// The internode's primitive, perhaps under a bend. That of a cut end goes on straight past the cut, by
+  /// `length_past_cut`, for the cut to take away; what is shed has none. Adds at most two nodes.
+  NodeId add_primitive(BlobTree& tree, std::size_t i) const;
+
+ private:
+  const Skeleton& skeleton_;
+  std::span<const Arc> arcs_;
+  const TreeOptions& options_;
+  ChildTable table_;
+};
+
+/// How far past a cut its internode's axis goes on, so that neither the tilted face nor the splinters meet its round
+/// end.
+double length_past_cut(const Internode& internode, const Vec3& axis, const CutEnd& end);
+
+}  // namespace barkridge
