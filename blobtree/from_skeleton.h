@@ -65,14 +65,11 @@ struct TreeOptions {
 /// numbers outside their ranges and for cut ends and scars of internodes that have children.
 BlobTree tree_from_skeleton(const Skeleton& skeleton, const TreeOptions& options = {});
 
-/// Of a shed internode, which has no primitive.
-inline constexpr NodeId kNoNode = 0xffffffff;
-
-/// The tree, which of its nodes is each internode's primitive, and the skeleton that these internodes are of: with those
-/// that curved axes and tips add.
+/// The tree, which of its nodes is each internode's primitive, and the skeleton that these internodes are of: with
+/// those that curved axes and tips add.
 struct PlantTree {
   BlobTree tree;
-  std::vector<NodeId> primitives;  ///< by internode
+  std::vector<NodeId> primitives;  ///< by internode; kNoNode for what is shed
   Skeleton skeleton;
 };
 PlantTree plant_from_skeleton(Skeleton skeleton, const TreeOptions& options = {});

@@ -147,6 +147,7 @@ struct Affine {
 
 /// Index of a node in its tree.
 using NodeId = std::uint32_t;
+inline constexpr NodeId kNoNode = 0xffffffff;
 
 struct Node {
   std::variant<Cone, FadedCone, Disc, Ring, Polygon,                            //

@@ -4,6 +4,7 @@
 #include "cli/verbs.h"
 #include "cli/warning.h"
 #include "cli/work_statistics.h"
+#include "lsystem/prune.h"
 #include "mesh/write.h"
 #include "scene/pipeline.h"
 #include "scene/surface.h"
@@ -26,7 +27,7 @@ Made make(const Scene& scene, ProgressBar& bar, const std::string& title, StageC
   const Listener growing{bar.stage(title + "growing"), warn};
   Made made;
   if (is_subdivided(scene)) {
-    made.model.skeleton = make_skeleton(scene, growing);
+    made.model.skeleton = prune(make_skeleton(scene, growing), scene.cuts, scene.scars);
     statistics.skeleton_seconds = clock.lap();
     const ControlMesh control = make_control_mesh(scene, made.model.skeleton);
     statistics.control_triangles = control.triangles.size();

@@ -83,8 +83,9 @@ void run(const RenderArguments& arguments) {
       prepare_image_writing(arguments.outputs);
       return !shown || shown(fraction);
     };
-    const Image image = is_subdivided(now) ? render(refine(now, make_control_mesh(now, model.skeleton), 0), look, options)
-                                           : render(*field, look, options);
+    const Image image = is_subdivided(now)
+                            ? render(refine(now, make_control_mesh(now, model.skeleton), 0), look, options)
+                            : render(*field, look, options);
     for (const std::string& output : frame.outputs) write_picture(image, now, model, output);
   }
 }

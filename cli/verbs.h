@@ -30,7 +30,7 @@ struct RenderArguments : OutputArguments {
   std::string region_origin;  ///< the region as the user wrote it
 };
 struct MeshArguments : OutputArguments {  // which may have no outputs if there is a file for statistics
-  std::string statistics;  ///< a file, or empty
+  std::string statistics;                 ///< a file, or empty
 };
 struct GrowArguments : SceneArguments {};
 struct SkeletonArguments : SceneArguments {};

@@ -39,6 +39,8 @@ struct GrowthOptions {
   double thickening_steps = 1;
   /// Each tip counts in it as far as it has thickened.
   PipeModel pipe;
+  /// How long the scars of branches that `%` removes take to heal, > 0; without it they leave none.
+  std::optional<double> healing_steps;
 };
 
 /// When something of this derivation step appeared.

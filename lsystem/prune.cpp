@@ -169,6 +169,26 @@ Vec3 tilted_away(const Vec3& axis, const Vec3& carrier, double degrees) {
   return glm::normalize(std::cos(angle) * axis + std::sin(angle) * glm::normalize(away));
 }
 
+Skeleton with_scars_of_shed(Skeleton skeleton, double healing_steps, const ScarShape& shape) {
+  check(shape);
+  for (const ShedBranch& shed : skeleton.shed_branches) {
+    if (shed.parent == kNoInternode || shed.age >= healing_steps) continue;
+    const Internode& carrier = skeleton.internodes[static_cast<std::size_t>(shed.parent)];
+    const double left = 1 - shed.age / healing_steps;
+    Internode stub = carrier;
+    stub.base = shed.base;
+    stub.tip = shed.base + stub_length(carrier.tip_radius, shed.radius) * shed.heading;
+    stub.base_radius = stub.tip_radius = shed.radius;
+    stub.parent = shed.parent;
+    ++stub.order;
+    stub.source = kNoInternode;
+    const auto id = static_cast<InternodeId>(skeleton.internodes.size());
+    skeleton.scars.push_back({id, {shape.width, left * shape.depth, left * shape.stub}});
+    skeleton.internodes.push_back(stub);
+  }
+  return skeleton;
+}
+
 double stub_length(double carrier_radius, double radius) { return carrier_radius + radius; }
 
 Skeleton prune(Skeleton skeleton, std::span<const CutRule> cuts, std::span<const ScarRule> scars) {

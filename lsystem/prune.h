@@ -30,6 +30,12 @@ struct ScarRule {
 /// Internodes keep their `identity`. Cost: linear. Throws `InputError` for numbers outside the ranges stated above.
 Skeleton prune(Skeleton skeleton, std::span<const CutRule> cuts, std::span<const ScarRule> scars);
 
+/// Gives what growth has shed (`Skeleton::shed_branches`) scars that heal: depth and stub of `shape` shrink evenly to
+/// nothing over `healing_steps` derivation steps. Each needs an internode that stands for its stub, which is added at
+/// the end. What was shed so long ago, or what carried it is not there any more, leaves none. Cost: linear. Throws
+/// `InputError` for a shape outside its ranges.
+Skeleton with_scars_of_shed(Skeleton skeleton, double healing_steps, const ScarShape& shape = {});
+
 /// `axis` tilted by an angle away from `carrier`, or towards it by a negative one; both of length 1. Where they are
 /// parallel, in some direction that only they decide.
 Vec3 tilted_away(const Vec3& axis, const Vec3& carrier, double degrees);

@@ -96,7 +96,7 @@ Growth grow(const Scene& scene, const Listener& listener) {
   options.progress = listener.progress;
   options.notify = listener.notify;
   options.time = scene.turtle.growth.time;
-  options.keep_cuts = scene.turtle.growth.pipe.tip_radius.has_value();
+  options.keep_cuts = scene.turtle.growth.pipe.tip_radius || scene.turtle.growth.healing_steps;
   growth.word = naming_file(scene.model.file, [&] { return derive(*growth.grammar, options); });
   return growth;
 }
@@ -114,8 +114,9 @@ Skeleton make_skeleton(const Scene& scene, const Listener& listener) {
     throw InputError({scene.model.file, 0, 0, ""},
                      "expected a model with a skeleton; this one is a tree written by hand");
   }
-  Skeleton skeleton = scene.model.kind == ModelSource::Kind::kLst ? read_lst(scene.model.text, scene.model.file)
-                                                                  : read_skeleton_table(scene.model.text, scene.model.file);
+  Skeleton skeleton = scene.model.kind == ModelSource::Kind::kLst
+                          ? read_lst(scene.model.text, scene.model.file)
+                          : read_skeleton_table(scene.model.text, scene.model.file);
   thicken(skeleton, scene.turtle.growth);
   return skeleton;
 }
@@ -126,6 +127,9 @@ Model make_model(const Scene& scene, const Listener& listener) {
 }
 
 Model make_model(const Scene& scene, Skeleton skeleton) {
+  if (scene.turtle.growth.healing_steps) {
+    skeleton = with_scars_of_shed(std::move(skeleton), *scene.turtle.growth.healing_steps);
+  }
   PlantTree plant = plant_from_skeleton(prune(std::move(skeleton), scene.cuts, scene.scars), scene.tree);
   return {std::move(plant.skeleton), std::move(plant.tree), std::move(plant.primitives)};
 }

@@ -405,6 +405,9 @@ void add_growth_keys(Keys& keys) {
   keys.push_back(number(
       "growth.pipe_exponent", from_to(1, 10), [](auto& s) -> auto& { return s.turtle.growth.pipe.exponent; },
       "The exponent whose power of the radius branches share; 2 is da Vinci's rule."));
+  keys.push_back(number(
+      "growth.healing_steps", above(0), [](auto& s) -> auto& { return s.turtle.growth.healing_steps; },
+      "How long the scars of branches that % removes take to heal. Left out, they leave none."));
 }
 
 void add_surface_keys(Keys& keys) {

@@ -4,8 +4,8 @@
 
 namespace barkridge {
 
-/// A field cut off by a box: as it is inside, and 0 outside. So a small part of a large model's surface can be meshed by
-/// itself; it is closed by the box's faces.
+/// A field cut off by a box: as it is inside, and 0 outside. So a small part of a large model's surface can be meshed
+/// by itself; it is closed by the box's faces.
 class FieldWithin final : public Field {
  public:
   FieldWithin(std::shared_ptr<const Field> whole, const Box& box);

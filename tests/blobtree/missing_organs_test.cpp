@@ -160,8 +160,9 @@ TEST_CASE("a scar's hollow has the stated depth and stub and does not reach past
       ScarShape filled = shape;
       filled.depth = 0;
       const auto stub = reference_field(tree_from_skeleton(scarred(whole, filled), options));
-      const auto bark =
-          reference_field(tree_from_skeleton({{whole.internodes[0], whole.internodes[1]}, {}, {}, {}, 0}, options));
+      Skeleton trunk;
+      trunk.internodes = {whole.internodes[0], whole.internodes[1]};
+      const auto bark = reference_field(tree_from_skeleton(trunk, options));
       CAPTURE(variant.joint == JointKind::kPaper, variant.junction == JunctionKind::kRidge, shape.width);
       // The lateral's axis leaves the bark on the x axis, where the bark's normal may lean a little.
       const double start = height_of_surface(*bark, Vec3(0), Vec3(1, 0, 0), 1.8);

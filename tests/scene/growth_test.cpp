@@ -28,7 +28,8 @@ endlsystem
 
 RenderScene look_at(const Scene& scene, double time) {
   const Scene then = at_time(scene, time);
-  return make_render_scene(then, *framed_field(then, compile(make_model(then).tree)));
+  const Model model = make_model(then);
+  return make_render_scene(then, model, *framed_field(then, compile(model.tree)));
 }
 
 double height(const Scene& scene) { return make_skeleton(scene).internodes.back().base.y; }
@@ -51,7 +52,8 @@ TEST_CASE("camera and ground are the same at all times of a growing plant") {
   CHECK(early.camera.position == late.camera.position);
   CHECK(early.camera.target == late.camera.target);
   CHECK(early.ground.surrounded.hi == late.ground.surrounded.hi);
-  const RenderScene grown_up = make_render_scene(scene, *compile(make_model(scene).tree));
+  const Model model = make_model(scene);
+  const RenderScene grown_up = make_render_scene(scene, model, *compile(model.tree));
   CHECK(early.camera.position == grown_up.camera.position);
   const Scene framed = growing_scene("tip_radius = 0.05\nframed_time = 2");
   CHECK(look_at(framed, 1).camera.target.y < 0.6 * early.camera.target.y);

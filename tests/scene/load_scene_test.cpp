@@ -202,9 +202,11 @@ TEST_CASE("the swelling is a quarter of the width unless it is given") {
 TEST_CASE("models of every kind are files with the default look") {
   const ScratchFolder folder;
   using Kind = ModelSource::Kind;
-  const std::vector<std::pair<std::string, Kind>> files = {
-      {"a.l", Kind::kLsystem}, {"a.str", Kind::kString}, {"a.lstring", Kind::kString}, {"a.skel", Kind::kSkeleton},
-      {"a.lst", Kind::kLst}};
+  const std::vector<std::pair<std::string, Kind>> files = {{"a.l", Kind::kLsystem},
+                                                           {"a.str", Kind::kString},
+                                                           {"a.lstring", Kind::kString},
+                                                           {"a.skel", Kind::kSkeleton},
+                                                           {"a.lst", Kind::kLst}};
   for (const auto& [name, kind] : files) {
     const std::string path = folder.write(name, "content of " + name);
     const Scene scene = load_scene(path);
