@@ -21,6 +21,9 @@ constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 // Influence reaches two radii from the axis; a bent axis keeps at least this multiple of it to its arc's centre.
 constexpr double kBendClearance = 1.25;
 
+// What meets at a junction is taken to have died out on an internode so many of the thickest radii away from it.
+constexpr double kJunctionReach = 2;
+
 // What an internode's primitive must know of its neighbours.
 struct Neighbourhood {
   const Internode* parent = nullptr;
@@ -97,7 +100,14 @@ struct Summands {
 class TreeBuilder {
  public:
   TreeBuilder(const Skeleton& skeleton, const TreeOptions& options)
-      : internodes_(skeleton.internodes), options_(options), table_(child_table(skeleton)) {
+      : skeleton_(skeleton), internodes_(skeleton.internodes), options_(options), table_(child_table(skeleton)) {
+    reserve_large(thickest_child_, internodes_.size());
+    thickest_child_.resize(internodes_.size(), 0);
+    for (const Internode& child : internodes_) {
+      if (child.parent == kNoInternode) continue;
+      double& thickest = thickest_child_[static_cast<std::size_t>(child.parent)];
+      thickest = std::max(thickest, child.base_radius);
+    }
     resize_large(subtrees_, internodes_.size());
     const std::size_t most = most_nodes();
     reserve_large(tree_.nodes, most);
@@ -105,10 +115,16 @@ class TreeBuilder {
   }
 
   BlobTree run() {
-    // Children before parents: the summands of a subtree move up the axis and become a node where branches touch.
+    // Children before parents: the summands of a subtree move up the axis and become a node where branches touch. A
+    // long internode ends them where blending is confined: what meets at its tip is a group of its own.
+    std::vector<NodeId> apart;
     for (std::size_t i = internodes_.size(); i-- > 0;) {
-      Summands subtree = join(children_of(i));
-      append(subtree, single(add_primitive(tree_, internodes_[i], neighbourhood_of(i), options_)));
+      Summands subtree = join(static_cast<InternodeId>(i), children_of(i));
+      append(subtree, single(add_internode(i)));
+      if (carries_group(i)) {
+        apart.push_back(as_node(subtree));
+        subtree = single(add_internode(i));
+      }
       subtrees_[i] = subtree;
     }
     // Roots that start at one point are children of the ground there.
@@ -117,8 +133,12 @@ class TreeBuilder {
       const Vec3& base = internodes_[static_cast<std::size_t>(root)].base;
       plants[{base.x, base.y, base.z}].push_back(root);
     }
-    std::vector<NodeId> apart;
-    for (const auto& [base, roots] : plants) apart.push_back(as_node(join(roots)));
+    for (const auto& [base, roots] : plants) {
+      // A root by itself adds nothing to the group that it carries.
+      if (roots.size() > 1 || !carries_group(static_cast<std::size_t>(roots.front()))) {
+        apart.push_back(as_node(join(kNoInternode, roots)));
+      }
+    }
     if (apart.size() > 1)
       tree_.add(Union{}, std::move(apart));
     else if (apart.size() == 1)
@@ -131,10 +151,12 @@ class TreeBuilder {
     return std::span(table_.children).subspan(table_.first[i], table_.first[i + 1] - table_.first[i]);
   }
 
-  // A primitive and perhaps a bend for every internode; a contact where branches touch, and a sum for each of several
-  // internodes; what joins the roots.
+  // A primitive and perhaps a bend for every internode, and again with a sum where it carries a group; a contact where
+  // branches touch, and a sum for each of several internodes; what joins the roots.
   std::size_t most_nodes() const {
-    std::size_t most = internodes_.size() * (options_.bend_angle_degrees > 0 ? 2 : 1);
+    const std::size_t for_each = options_.bend_angle_degrees > 0 ? 2 : 1;
+    std::size_t most = internodes_.size() * for_each;
+    for (std::size_t i = 0; i < internodes_.size(); ++i) most += carries_group(i) ? for_each + 1 : 0;
     most += 3 * children_of(internodes_.size()).size() + 1;
     if (options_.junction == JunctionKind::kSmooth) return most;
     for (std::size_t i = 0; i < internodes_.size(); ++i) {
@@ -151,14 +173,30 @@ class TreeBuilder {
     Neighbourhood near;
     const auto children = children_of(i);
     near.child_count = children.size();
-    for (const InternodeId child : children) {
-      near.thickest_child = std::max(near.thickest_child, internodes_[static_cast<std::size_t>(child)].base_radius);
-    }
+    near.thickest_child = thickest_child_[i];
     if (const InternodeId parent = internodes_[i].parent; parent != kNoInternode) {
       near.parent = &internodes_[static_cast<std::size_t>(parent)];
       near.shares_base = children_of(static_cast<std::size_t>(parent)).size() > 1;
     }
     return near;
+  }
+
+  NodeId add_internode(std::size_t i) {
+    return add_primitive(tree_, internodes_[i], neighbourhood_of(i), options_);
+  }
+
+  // Whether blending ends at an internode: it has children, and what meets at its base has died out where what meets at
+  // its tip begins.
+  bool carries_group(std::size_t i) const {
+    if (options_.blending != BlendingKind::kConfined || children_of(i).empty()) return false;
+    const Internode& a = internodes_[i];
+    const double at_tip = std::max(a.tip_radius, thickest_child_[i]);
+    double at_base = a.base_radius;
+    if (a.parent != kNoInternode) {
+      const auto parent = static_cast<std::size_t>(a.parent);
+      at_base = std::max({at_base, internodes_[parent].tip_radius, thickest_child_[parent]});
+    }
+    return glm::distance(a.base, a.tip) > kJunctionReach * (at_base + at_tip);
   }
 
   static Summands single(NodeId node) { return {node, node, 1}; }
@@ -184,13 +222,15 @@ class TreeBuilder {
   }
 
   // What branches that start at one point are together.
-  Summands join(std::span<const InternodeId> branches) {
+  Summands join(InternodeId carrier, std::span<const InternodeId> branches) {
     const auto subtree_of = [&](InternodeId branch) { return subtrees_[static_cast<std::size_t>(branch)]; };
     if (branches.size() > 1 && options_.junction == JunctionKind::kRidge) {
       std::vector<NodeId> nodes;
       nodes.reserve(branches.size());
       for (const InternodeId branch : branches) nodes.push_back(as_node(subtree_of(branch)));
-      return single(tree_.add(Contact{options_.contact}, std::move(nodes)));
+      const ContactShape shape =
+          contact_shape_of(skeleton_, carrier, branches, options_.ridge_rules, options_.contact);
+      return single(tree_.add(Contact{shape}, std::move(nodes)));
     }
     Summands all;
     for (const InternodeId branch : branches) {
@@ -201,9 +241,11 @@ class TreeBuilder {
     return all;
   }
 
+  const Skeleton& skeleton_;
   const std::vector<Internode>& internodes_;
   const TreeOptions& options_;
   const ChildTable table_;
+  std::vector<double> thickest_child_;  // base radius, by internode
   BlobTree tree_;
   std::vector<NodeId> next_;        // by node: what it is followed by among summands
   std::vector<Summands> subtrees_;  // by internode
@@ -213,6 +255,10 @@ class TreeBuilder {
 
 BlobTree tree_from_skeleton(const Skeleton& skeleton, const TreeOptions& options) {
   check(options.contact);
+  for (const RidgeRule& rule : options.ridge_rules) check(rule.contact);
+  for (const Ridge& ridge : skeleton.ridges) {
+    check(ContactShape{ridge.width, ridge.swelling, options.contact.allow_large_swelling});
+  }
   if (!(0 <= options.bend_angle_degrees && options.bend_angle_degrees < 180)) {
     throw InputError(
         fmt::format("bend angle {} is outside its range: 0 <= angle_degrees < 180", options.bend_angle_degrees));

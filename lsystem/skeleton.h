@@ -15,6 +15,16 @@ namespace barkridge {
 using InternodeId = std::int32_t;
 inline constexpr InternodeId kNoInternode = -1;
 
+/// How the bark ridge of a fork is to be shaped: the extent and the height of the swelling beside it, in field units.
+/// [docs/field.md, "Precise contact"]
+struct Ridge {
+  double width = 0.5;
+  double swelling = 0.125;
+
+  bool operator==(const Ridge&) const = default;
+};
+inline constexpr std::int32_t kNoRidge = -1;
+
 /// A straight piece of a branch, a truncated cone: lengths in scene units, radii (not diameters).
 struct Internode {
   Vec3 base{0};
@@ -26,6 +36,8 @@ struct Internode {
   std::int32_t order = 0;
   /// The derivation step in which its module appeared; 0 where the source does not say.
   std::int32_t birth_step = 0;
+  /// Index in the skeleton's ridges: the shape of the ridge between this internode and others that start at its base.
+  std::int32_t ridge = kNoRidge;
 };
 
 /// Something other than an internode that the turtle drew: a leaf surface, a sphere, a disc.
@@ -45,6 +57,7 @@ struct Organ {
 struct Skeleton {
   std::vector<Internode> internodes;
   std::vector<Organ> organs;
+  std::vector<Ridge> ridges;
   /// Internodes of zero length that were dropped, their children attached to their parents.
   std::size_t dropped_internodes = 0;
 };

@@ -41,8 +41,10 @@ struct TurtleOptions {
 /// base has the width at its `F`, its tip the width at the next command that ends it: a tip of width 0 is drawn 1e-7
 /// wide, as in cpfg. Segments of zero length are dropped and counted, and their children belong to their parents.
 ///
+/// `@W(width, swelling)` sets the ridge of the segments that follow on the branch and on those that leave it.
+///
 /// Throws `InputError` on positions and widths that are not finite, widths that are zero or negative where a segment
-/// begins or negative where it ends, and brackets without their partner; and `LimitError`.
+/// begins or negative where it ends, ridges out of range, and brackets without their partner; and `LimitError`.
 Skeleton interpret(const Word& word, const Grammar* grammar = nullptr, const TurtleOptions& options = {});
 
 }  // namespace barkridge

@@ -160,6 +160,22 @@ void complete_model(const std::vector<Setting>& settings, const std::string& pat
   model.text = read_input(model.file, given->value_place, std::size_t{1} << 32);
 }
 
+// Gives every ridge rule the shape that it leaves to the scene.
+void complete_ridge_rules(const std::vector<Setting>& settings, const std::string& path, Scene& scene) {
+  for (const auto& [number, stated] : scene.ridge_rules) {
+    ContactShape contact = scene.tree.contact;
+    contact.width = stated.width.value_or(contact.width);
+    contact.swelling = stated.swelling.value_or(contact.width / 4);
+    try {
+      check(contact);
+    } catch (const InputError& error) {
+      const std::string swelling = fmt::format("ridge.{}.swelling", number), width = fmt::format("ridge.{}.width", number);
+      throw InputError(place_of(settings, {swelling.c_str(), width.c_str()}, path), error.message());
+    }
+    scene.tree.ridge_rules.push_back({stated.orders, stated.angles_degrees, stated.radius_ratios, contact});
+  }
+}
+
 // Rules about several keys at once.
 void check_together(const std::vector<Setting>& settings, const std::string& path, Scene& scene) {
   ContactShape& contact = scene.tree.contact;
@@ -169,6 +185,7 @@ void check_together(const std::vector<Setting>& settings, const std::string& pat
   } catch (const InputError& error) {
     throw InputError(place_of(settings, {"junction.swelling", "junction.width"}, path), error.message());
   }
+  complete_ridge_rules(settings, path, scene);
   if (scene.camera.position && scene.camera.target && *scene.camera.position == *scene.camera.target) {
     throw InputError(place_of(settings, {"camera.target"}, path),
                      "camera.target: expected another point than camera.position");

@@ -55,6 +55,15 @@ struct SceneSun {
   double angle_degrees = Sun{}.angle_degrees;
 };
 
+/// A ridge rule as a scene states it: without a width it has the scene's, without a swelling a quarter of its width.
+struct SceneRidgeRule {
+  Interval orders = RidgeRule{}.orders;
+  Interval angles_degrees = RidgeRule{}.angles_degrees;
+  Interval radius_ratios = RidgeRule{}.radius_ratios;
+  std::optional<double> width;
+  std::optional<double> swelling;
+};
+
 struct Scene {
   ModelSource model;
   DeriveOptions derivation;
@@ -62,6 +71,8 @@ struct Scene {
   std::map<std::string, std::string> defines;
   TurtleOptions turtle;
   TreeOptions tree;
+  /// By their numbers in the scene, from 0 on. `load_scene` completes them and puts them into `tree`, too.
+  std::map<int, SceneRidgeRule> ridge_rules;
   SceneCamera camera;
   SceneSun sun;
   Sky sky;

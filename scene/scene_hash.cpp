@@ -54,12 +54,17 @@ void add_skeleton(Sha256& hash, const Skeleton& skeleton) {
     append(bytes, internode.base_radius);
     append(bytes, internode.tip_radius);
     append(bytes, static_cast<std::uint64_t>(internode.parent));
+    if (internode.ridge != kNoRidge) {
+      const Ridge& ridge = skeleton.ridges[static_cast<std::size_t>(internode.ridge)];
+      append(bytes, ridge.width);
+      append(bytes, ridge.swelling);
+    }
     hash.add(bytes);
   }
 }
 
 bool is_seen(std::string_view key) {
-  for (const std::string_view section : {"junction.", "bend.", "camera.", "sun.", "sky.", "ground.", "material."}) {
+  for (const std::string_view section : {"junction.", "ridge.", "bend.", "camera.", "sun.", "sky.", "ground.", "material."}) {
     if (key.starts_with(section)) return true;
   }
   return false;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -48,6 +49,14 @@ std::optional<double> number_of(const SettingValue& value) {
   return std::nullopt;
 }
 
+std::optional<Interval> interval_of(const SettingValue& value, const Range& range) {
+  const auto* ends = std::get_if<std::vector<double>>(&value);
+  if (!ends || ends->size() != 2) return std::nullopt;
+  const Interval interval{(*ends)[0], (*ends)[1]};
+  if (!range.contains(interval.lo) || !range.contains(interval.hi) || interval.empty()) return std::nullopt;
+  return interval;
+}
+
 std::optional<Vec3> vector_of(const SettingValue& value, const Range& range) {
   const auto* numbers = std::get_if<std::vector<double>>(&value);
   if (!numbers || numbers->size() != 3) return std::nullopt;
@@ -61,6 +70,7 @@ std::optional<Vec3> vector_of(const SettingValue& value, const Range& range) {
 
 std::string text_of(double x) { return fmt::format("{}", x); }
 std::string text_of(bool x) { return x ? "true" : "false"; }
+std::string text_of(const Interval& x) { return fmt::format("[{}, {}]", x.lo, x.hi); }
 std::string text_of(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
 template <typename Integer>
 std::enable_if_t<std::is_integral_v<Integer>, std::string> text_of(Integer x) {
@@ -200,6 +210,45 @@ SceneKey model(std::string name, std::string takes, ModelSource::Kind kind, std:
           [](const Scene&) { return std::string(); }};
 }
 
+// A key of every table in a row, `section.N.rest`. Its value is that of all of them.
+template <typename At>
+SceneKey rule_key(const std::string& rest, std::string takes, std::string meaning, At at,
+                  std::function<bool(SceneRidgeRule&, const SettingValue&)> set) {
+  return {"ridge.N." + rest, std::move(takes), std::move(meaning),
+          [set](Scene& scene, const Setting& setting) {
+            const std::string number = setting.key.substr(setting.key.find('.') + 1);
+            return set(scene.ridge_rules[std::stoi(number)], setting.value);
+          },
+          [at](const Scene& scene) {
+            std::string text;
+            for (const auto& [number, rule] : scene.ridge_rules) {
+              text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", number, text_of(at(rule)));
+            }
+            return text;
+          }};
+}
+
+template <typename At>
+SceneKey rule_range(const std::string& rest, Range range, const std::string& example, At at, std::string meaning) {
+  return rule_key(rest, fmt::format("the lowest and the highest, like {}, each {}", example, in_words(range, "number")),
+                  std::move(meaning), at, [range, at](SceneRidgeRule& rule, const SettingValue& value) {
+                    const std::optional<Interval> interval = interval_of(value, range);
+                    if (interval) at(rule) = *interval;
+                    return interval.has_value();
+                  });
+}
+
+template <typename At>
+SceneKey rule_number(const std::string& rest, Range range, At at, std::string meaning) {
+  return rule_key(rest, in_words(range, "number"), std::move(meaning), at,
+                  [range, at](SceneRidgeRule& rule, const SettingValue& value) {
+                    const std::optional<double> x = number_of(value);
+                    if (!x || !range.contains(*x)) return false;
+                    at(rule) = *x;
+                    return true;
+                  });
+}
+
 bool set_define(Scene& scene, const Setting& setting) {
   std::string& value = scene.defines[setting.key.substr(setting.key.rfind('.') + 1)];
   if (const auto* text = std::get_if<std::string>(&setting.value)) {
@@ -298,6 +347,10 @@ void add_surface_keys(Keys& keys) {
       "junction.joint", {{JointKind::kFaded, "faded"}, {JointKind::kPaper, "paper"}},
       [](auto& s) -> auto& { return s.tree.joint; },
       "How an internode hands over to the next: by fading fields, or by shortened skeletons."));
+  keys.push_back(choice<BlendingKind>(
+      "junction.blending", {{BlendingKind::kSubtrees, "subtrees"}, {BlendingKind::kConfined, "confined"}},
+      [](auto& s) -> auto& { return s.tree.blending; },
+      "What a junction joins: all that grows from it, or only the internodes that meet there."));
   keys.push_back(number(
       "junction.width", {0, 0.5, true, false}, [](auto& s) -> auto& { return s.tree.contact.width; },
       "Extent of the swelling beside a ridge, in field units."));
@@ -307,6 +360,21 @@ void add_surface_keys(Keys& keys) {
   keys.push_back(flag(
       "junction.allow_large_swelling", [](auto& s) -> auto& { return s.tree.contact.allow_large_swelling; },
       "Lets the swelling exceed a third of the width."));
+  keys.push_back(rule_range(
+      "orders", at_least(0), "[0, 1]", [](auto& r) -> auto& { return r.orders; },
+      "Orders of the internode that carries the fork; 0 is the trunk's, and the ground's."));
+  keys.push_back(rule_range(
+      "angles_degrees", from_to(0, 180), "[0, 40]", [](auto& r) -> auto& { return r.angles_degrees; },
+      "Angles between the two thickest branches of the fork."));
+  keys.push_back(rule_range(
+      "radius_ratios", from_to(0, 1), "[0.5, 1]", [](auto& r) -> auto& { return r.radius_ratios; },
+      "Radii of the second thickest branch over that of the thickest."));
+  keys.push_back(rule_number(
+      "width", {0, 0.5, true, false}, [](auto& r) -> auto& { return r.width; },
+      "The ridge's width at such forks. Left out, junction.width."));
+  keys.push_back(rule_number(
+      "swelling", {0, 0.5, true, false}, [](auto& r) -> auto& { return r.swelling; },
+      "Its swelling. Left out, a quarter of its width."));
   keys.push_back(number(
       "bend.angle_degrees", {0, 180, false, true}, [](auto& s) -> auto& { return s.tree.bend_angle_degrees; },
       "Total angle by which internodes are bent that leave their parent's direction."));
@@ -421,6 +489,27 @@ Keys make_keys() {
   return keys;
 }
 
+std::string_view take_part(std::string_view& name) {
+  const std::size_t dot = std::min(name.find('.'), name.size());
+  const std::string_view part = name.substr(0, dot);
+  name.remove_prefix(std::min(dot + 1, name.size()));
+  return part;
+}
+
+bool is_number_of_table(std::string_view part) {
+  constexpr std::size_t kMostDigits = 6;
+  return !part.empty() && part.size() <= kMostDigits && part.find_first_not_of("0123456789") == part.npos;
+}
+
+bool is_name_of(std::string_view key, std::string_view name) {
+  while (!key.empty() && !name.empty()) {
+    const std::string_view wanted = take_part(key), part = take_part(name);
+    const bool fits = wanted == "NAME" ? !part.empty() : wanted == "N" ? is_number_of_table(part) : wanted == part;
+    if (!fits) return false;
+  }
+  return key.empty() && name.empty();
+}
+
 }  // namespace
 
 const std::vector<SceneKey>& scene_keys() {
@@ -429,13 +518,8 @@ const std::vector<SceneKey>& scene_keys() {
 }
 
 const SceneKey* find_scene_key(std::string_view name) {
-  constexpr std::string_view kAnyName = "NAME";
   for (const SceneKey& key : scene_keys()) {
-    const std::string_view stem = std::string_view(key.name).substr(0, key.name.rfind('.') + 1);
-    const bool open = key.name.size() == stem.size() + kAnyName.size() && key.name.ends_with(kAnyName);
-    if (open ? name.size() > stem.size() && name.starts_with(stem) && name.find('.', stem.size()) == name.npos
-             : name == key.name)
-      return &key;
+    if (is_name_of(key.name, name)) return &key;
   }
   return nullptr;
 }

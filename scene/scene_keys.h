@@ -12,7 +12,7 @@
 namespace barkridge {
 
 struct SceneKey {
-  /// Dotted; a last part `NAME` in capitals stands for any name.
+  /// Dotted; a part `NAME` in capitals stands for any name, a part `N` for the number of a table in a row of tables.
   std::string name;
   /// What its value is, as in "expected ...".
   std::string takes;

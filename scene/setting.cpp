@@ -141,6 +141,13 @@ void flatten(const toml::table& table, const std::string& prefix, const Lines& l
       flatten(*node.as_table(), name + '.', lines, settings);
       continue;
     }
+    if (node.is_array_of_tables()) {
+      const toml::array& tables = *node.as_array();
+      for (std::size_t i = 0; i < tables.size(); ++i) {
+        flatten(*tables[i].as_table(), fmt::format("{}.{}.", name, i), lines, settings);
+      }
+      continue;
+    }
     const toml::source_position begin = node.source().begin;
     const SourceLocation content = lines.content_place(begin);
     settings.push_back(

@@ -20,10 +20,14 @@ Scene load_with(const ScratchFolder& folder, const std::string& definition) {
   return load_scene(folder.path("a.toml"), overrides);
 }
 
-std::string name_of_any(const std::string& name) {
-  const std::size_t any = name.find("NAME");
-  return any == std::string::npos ? name : fmt::format("{}X", name.substr(0, any));
+// A key's name with something in the place of `part`, if that is in it.
+std::string with_part(const std::string& name, const std::string& part, const std::string& instead) {
+  const std::size_t place = name.find(part);
+  if (place == std::string::npos) return name;
+  return fmt::format("{}{}{}", name.substr(0, place), instead, name.substr(place + part.size()));
 }
+
+std::string name_of_any(const std::string& name) { return with_part(with_part(name, "NAME", "X"), ".N.", ".0."); }
 
 }  // namespace
 

@@ -1,0 +1,190 @@
+#pragma once
+// What can go wrong with the surface of any tree, as numbers: radii around every internode's axis, found by rays.
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "blobtree/field.h"
+#include "tests/support/skeletons.h"
+
+namespace barkridge::test {
+
+/// A tree that no gardener would plant: orders up to 1 to 5, 1 to 8 branches at a point at 5 to 120 degrees to what
+/// carries them, internodes from a fifth to ten of their radii long, radii by da Vinci's rule with shares of 0.1 to 1.
+inline Skeleton wild_skeleton(std::uint64_t seed, int internodes = 30) {
+  RandomSource random(seed ^ 0x9e3779b97f4a7c15ull);
+  Skeleton skeleton;
+  struct Tip {
+    InternodeId parent;
+    Vec3 position, direction;
+    double radius;
+    int order;
+  };
+  const int highest_order = random.integer(1, 5);
+  const auto length_of = [&](double radius) { return radius * 0.2 * std::pow(50.0, random.unit()); };
+  std::vector<Tip> tips{{kNoInternode, Vec3(0), Vec3(0, 1, 0), 1, 0}};
+  for (std::size_t next = 0; next < tips.size() && static_cast<int>(skeleton.internodes.size()) < internodes; ++next) {
+    const Tip tip = tips[next];
+    const Vec3 end = tip.position + length_of(tip.radius) * tip.direction;
+    const double tip_radius = tip.radius * random.uniform(0.9, 1);
+    const auto id = static_cast<InternodeId>(skeleton.internodes.size());
+    skeleton.internodes.push_back({tip.position, end, tip.radius, tip_radius, tip.parent, tip.order});
+    const int children = random.chance(0.4) ? 1 : random.integer(2, 8);
+    std::vector<double> shares;
+    double sum = 0;
+    for (int k = 0; k < children; ++k) sum += shares.emplace_back(random.uniform(0.1, 1));
+    const double largest = *std::max_element(shares.begin(), shares.end());
+    for (const double share : shares) {
+      const int order = tip.order + (share == largest ? 0 : 1);
+      const double turn = random.uniform(5, 120) * kDegree;
+      const Vec3 side = glm::normalize(glm::cross(tip.direction, random.direction()));
+      if (order > highest_order) continue;
+      tips.push_back({id, end, glm::normalize(std::cos(turn) * tip.direction + std::sin(turn) * side),
+                      tip_radius * std::sqrt(share / sum), order});
+    }
+  }
+  return skeleton;
+}
+
+/// The worst anywhere on a tree, and where: the internode and the place along it, from 0 to 1.
+struct Worst {
+  double value = 0;
+  std::size_t internode = 0;
+  double along = 0;
+  double azimuth = 0;
+  void consider(double other, std::size_t i, double at, double turn) {
+    if (other > value) *this = {other, i, at, turn};
+  }
+};
+
+struct Dependability {
+  /// How far the surface lies outside of the thickest radius that meets at the nearer end, in units of that, on sides
+  /// where no other axis lies.
+  Worst swelling;
+  /// How far the surface lies inside of an internode's own radius, in units of that; up to a tenth of a radius before
+  /// its fork.
+  Worst necking;
+  /// How much the radius rises after a dip along an internode, in units of its own, farther than three of the thickest
+  /// radii from forks and tips.
+  Worst ring;
+  /// Places on the axis that are outside of the solid.
+  int missing = 0;
+
+  bool holds() const { return swelling.value <= 0.05 && necking.value <= 0.05 && ring.value <= 0.01 && missing == 0; }
+};
+
+namespace dependability {
+
+inline double distance_to(const Internode& a, const Vec3& p, Vec3& nearest) {
+  const Vec3 axis = a.tip - a.base;
+  nearest = a.base + std::clamp(glm::dot(p - a.base, axis) / glm::dot(axis, axis), 0.0, 1.0) * axis;
+  return glm::distance(p, nearest);
+}
+
+struct Ray {
+  Vec3 origin, direction;
+  double own, thickest, along, azimuth;
+  bool away;  // from forks and tips
+};
+
+// Where the rays leave the solid for the first time, or `most` of their thickest radii. Rays that start outside: 0.
+inline std::vector<double> exits(const Field& field, const std::vector<Ray>& rays, double most) {
+  constexpr int kSteps = 32, kHalvings = 12;
+  std::vector<double> inside(rays.size(), 0), outside(rays.size(), -1), values(rays.size());
+  std::vector<Vec3> points(rays.size());
+  const auto look = [&](auto distance) {
+    for (std::size_t i = 0; i < rays.size(); ++i) points[i] = rays[i].origin + distance(i) * rays[i].direction;
+    field.values(points, values);
+  };
+  for (int step = 0; step <= kSteps; ++step) {
+    const auto at = [&](std::size_t i) { return most * rays[i].thickest * step / kSteps; };
+    look(at);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      if (outside[i] >= 0) continue;
+      (values[i] >= kIsoValue ? inside : outside)[i] = at(i);
+    }
+  }
+  for (int k = 0; k < kHalvings; ++k) {
+    const auto middle = [&](std::size_t i) { return outside[i] < 0 ? inside[i] : 0.5 * (inside[i] + outside[i]); };
+    look(middle);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      if (outside[i] < 0) continue;
+      (values[i] >= kIsoValue ? inside : outside)[i] = middle(i);
+    }
+  }
+  return inside;
+}
+
+}  // namespace dependability
+
+inline Dependability dependability_of(const Skeleton& skeleton, const Field& field) {
+  using namespace dependability;
+  constexpr int kAlong = 24, kAround = 8;
+  constexpr double kMost = 1.6;
+  const auto& all = skeleton.internodes;
+  const ChildTable table = child_table(skeleton);
+  const auto children = [&](std::size_t i) { return table.first[i + 1] - table.first[i]; };
+  // By internode: the thickest radius that meets at its tip.
+  std::vector<double> at_tip(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) at_tip[i] = all[i].tip_radius;
+  for (const Internode& a : all) {
+    if (a.parent == kNoInternode) continue;
+    double& thickest = at_tip[static_cast<std::size_t>(a.parent)];
+    thickest = std::max(thickest, a.base_radius);
+  }
+  const auto is_away = [&](const Vec3& p) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (children(i) != 1 && glm::distance(p, all[i].tip) < 3 * at_tip[i]) return false;
+    }
+    return glm::distance(p, all[0].base) >= 3 * all[0].base_radius;
+  };
+  Dependability result;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Internode& a = all[i];
+    const double length = glm::distance(a.base, a.tip);
+    const double at_base =
+        a.parent == kNoInternode ? a.base_radius : std::max(at_tip[static_cast<std::size_t>(a.parent)], a.base_radius);
+    Vec3 side, other;
+    complete_frame((a.tip - a.base) / length, side, other);
+    std::vector<Ray> rays;
+    for (int j = 0; j < kAround; ++j) {
+      const double turn = 2 * std::numbers::pi * j / kAround;
+      for (int k = 0; k <= kAlong; ++k) {
+        const double y = static_cast<double>(k) / kAlong;
+        const Vec3 origin = a.base + y * (a.tip - a.base);
+        rays.push_back({origin, std::cos(turn) * side + std::sin(turn) * other,
+                        a.base_radius + y * (a.tip_radius - a.base_radius), y < 0.5 ? at_base : at_tip[i], y, turn,
+                        is_away(origin)});
+      }
+    }
+    const std::vector<double> radii = exits(field, rays, kMost);
+    double lowest = 0;
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+      const Ray& ray = rays[k];
+      if (ray.along == 0) lowest = 1e9;
+      if (radii[k] <= 0) {
+        ++result.missing;
+        continue;
+      }
+      const bool before_fork = children(i) > 0 && (1 - ray.along) * length < 0.1 * a.tip_radius;
+      if (!before_fork) result.necking.consider(1 - radii[k] / ray.own, i, ray.along, ray.azimuth);
+      // What lies on the ray's side and reaches its end makes a fillet or is another branch.
+      const Vec3 end = ray.origin + radii[k] * ray.direction;
+      const bool is_free = std::none_of(all.begin(), all.end(), [&](const Internode& b) {
+        Vec3 nearest;
+        const double thick = std::max(b.base_radius, b.tip_radius);
+        return &b != &a && distance_to(b, end, nearest) < 2 * thick &&
+               glm::dot(nearest - ray.origin, ray.direction) > 0.2 * std::min(thick, ray.own);
+      });
+      if (!is_free) continue;
+      result.swelling.consider(radii[k] / ray.thickest - 1, i, ray.along, ray.azimuth);
+      if (!ray.away) continue;
+      lowest = std::min(lowest, radii[k] / ray.own);
+      result.ring.consider(radii[k] / ray.own - lowest, i, ray.along, ray.azimuth);
+    }
+  }
+  return result;
+}
+
+}  // namespace barkridge::test
