@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/large_room.h"
+#include "blobtree/joint_plan.h"
 
 namespace barkridge {
 
@@ -52,8 +53,15 @@ Cone paper_cone(const Internode& a, const Neighbourhood& near, JunctionKind junc
           std::max(thinnest, a.base_radius + taper * end)};
 }
 
-FadedCone faded_cone(const Internode& a, const Neighbourhood& near) {
-  return {a.base, a.tip, a.base_radius, a.tip_radius, near.parent ? near.parent->tip_radius : 0.0, near.thickest_child};
+// Radii stay on the internode's taper line where its tip is shortened.
+FadedCone faded_cone(const Internode& a, const Neighbourhood& near, const JointPlan& plan) {
+  const double part = 1 - plan.shortening / glm::distance(a.base, a.tip);
+  return {a.base,
+          a.base + part * (a.tip - a.base),
+          a.base_radius,
+          a.base_radius + part * (a.tip_radius - a.base_radius),
+          plan.fades_at_base ? near.parent->tip_radius : 0.0,
+          plan.fades_at_tip ? near.thickest_child : 0.0};
 }
 
 // The bend of an internode in the plane of its axis and its parent's, so that it starts farther away from the parent's
@@ -84,11 +92,6 @@ NodeId add_bent(BlobTree& tree, Primitive primitive, const Bend& bend) {
   return tree.add(bend, {tree.add(primitive)});
 }
 
-NodeId add_primitive(BlobTree& tree, const Internode& a, const Neighbourhood& near, const TreeOptions& options) {
-  const Bend bend = bend_of(a, near, options.bend_angle_degrees);
-  return options.joint == JointKind::kPaper ? add_bent(tree, paper_cone(a, near, options.junction), bend)
-                                            : add_bent(tree, faded_cone(a, near), bend);
-}
 
 // Nodes that are to be summed: a subtree before anything but a sum has needed it as one node. Each is linked to the
 // next, so that rows of any length become one at no cost.
@@ -108,6 +111,7 @@ class TreeBuilder {
       double& thickest = thickest_child_[static_cast<std::size_t>(child.parent)];
       thickest = std::max(thickest, child.base_radius);
     }
+    if (options.joint == JointKind::kFaded) plans_ = plan_joints(skeleton, table_);
     resize_large(subtrees_, internodes_.size());
     const std::size_t most = most_nodes();
     reserve_large(tree_.nodes, most);
@@ -120,7 +124,13 @@ class TreeBuilder {
     std::vector<NodeId> apart;
     for (std::size_t i = internodes_.size(); i-- > 0;) {
       Summands subtree = join(static_cast<InternodeId>(i), children_of(i));
-      append(subtree, single(add_internode(i)));
+      const Summands internode = single(add_internode(i));
+      if (is_united(i)) {
+        const NodeId carried = as_node(subtree);
+        subtree = single(tree_.add(Union{}, {internode.first, carried}));
+      } else {
+        append(subtree, internode);
+      }
       if (carries_group(i)) {
         apart.push_back(as_node(subtree));
         subtree = single(add_internode(i));
@@ -151,12 +161,14 @@ class TreeBuilder {
     return std::span(table_.children).subspan(table_.first[i], table_.first[i + 1] - table_.first[i]);
   }
 
-  // A primitive and perhaps a bend for every internode, and again with a sum where it carries a group; a contact where
-  // branches touch, and a sum for each of several internodes; what joins the roots.
+  // A primitive and perhaps a bend for every internode, and again with a sum where it carries a group; a union and a sum
+  // where it is united with what it carries; a contact where branches touch, and a sum for each of several internodes; what joins the roots.
   std::size_t most_nodes() const {
     const std::size_t for_each = options_.bend_angle_degrees > 0 ? 2 : 1;
     std::size_t most = internodes_.size() * for_each;
-    for (std::size_t i = 0; i < internodes_.size(); ++i) most += carries_group(i) ? for_each + 1 : 0;
+    for (std::size_t i = 0; i < internodes_.size(); ++i) {
+      most += (carries_group(i) ? for_each + 1 : 0) + (is_united(i) ? 2 : 0);
+    }
     most += 3 * children_of(internodes_.size()).size() + 1;
     if (options_.junction == JunctionKind::kSmooth) return most;
     for (std::size_t i = 0; i < internodes_.size(); ++i) {
@@ -182,8 +194,14 @@ class TreeBuilder {
   }
 
   NodeId add_internode(std::size_t i) {
-    return add_primitive(tree_, internodes_[i], neighbourhood_of(i), options_);
+    const Internode& a = internodes_[i];
+    const Neighbourhood near = neighbourhood_of(i);
+    const Bend bend = bend_of(a, near, options_.bend_angle_degrees);
+    return options_.joint == JointKind::kPaper ? add_bent(tree_, paper_cone(a, near, options_.junction), bend)
+                                               : add_bent(tree_, faded_cone(a, near, plans_[i]), bend);
   }
+
+  bool is_united(std::size_t i) const { return options_.joint == JointKind::kFaded && plans_[i].is_united; }
 
   // Whether blending ends at an internode: it has children, and what meets at its base has died out where what meets at
   // its tip begins.
@@ -245,6 +263,7 @@ class TreeBuilder {
   const std::vector<Internode>& internodes_;
   const TreeOptions& options_;
   const ChildTable table_;
+  std::vector<JointPlan> plans_;        // by internode, of faded joints
   std::vector<double> thickest_child_;  // base radius, by internode
   BlobTree tree_;
   std::vector<NodeId> next_;        // by node: what it is followed by among summands
