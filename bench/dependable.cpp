@@ -96,12 +96,12 @@ void measure(const Options& options, Study& study) {
     const Measure necking = [](const Result& r) -> const Worst& { return r.surface.necking; };
     const Measure ring = [](const Result& r) -> const Worst& { return r.surface.ring; };
     const auto hold = count([](const Result& r) { return r.holds(); });
-    table.rows.push_back({surface, options.trees, hold, count([&](const Result& r) { return swelling(r).value > 0.05; }),
-                          count([&](const Result& r) { return necking(r).value > 0.05; }),
-                          count([&](const Result& r) { return ring(r).value > 0.01; }),
-                          count([](const Result& r) { return r.surface.missing > 0; }),
-                          count([](const Result& r) { return r.pieces != 1; }), most(swelling), most(necking),
-                          most(ring)});
+    table.rows.push_back(
+        {surface, options.trees, hold, count([&](const Result& r) { return swelling(r).value > 0.05; }),
+         count([&](const Result& r) { return necking(r).value > 0.05; }),
+         count([&](const Result& r) { return ring(r).value > 0.01; }),
+         count([](const Result& r) { return r.surface.missing > 0; }),
+         count([](const Result& r) { return r.pieces != 1; }), most(swelling), most(necking), most(ring)});
     study.figure("dependable_share_" + surface, static_cast<double>(hold) / options.trees);
     worst.push_back(worst_table(surface + ", swelling", results, swelling, options.worst));
     worst.push_back(worst_table(surface + ", necking", results, necking, options.worst));

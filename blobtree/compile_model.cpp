@@ -323,7 +323,7 @@ class ModelCompiler {
   std::vector<std::uint32_t> needs_;
   std::vector<Box> supports_;
   bool has_negatives_ = false;
-  bool has_others_ = false;  // primitives that are no cones
+  bool has_others_ = false;                                  // primitives that are no cones
   std::map<std::pair<double, double>, std::size_t> shapes_;  // contacts by width and swelling: a tree has but a few
   std::vector<Task> pending_;
   std::vector<NodeId> waiting_;          // primitives of the sums whose other operands find their places

@@ -92,7 +92,6 @@ NodeId add_bent(BlobTree& tree, Primitive primitive, const Bend& bend) {
   return tree.add(bend, {tree.add(primitive)});
 }
 
-
 // Nodes that are to be summed: a subtree before anything but a sum has needed it as one node. Each is linked to the
 // next, so that rows of any length become one at no cost.
 struct Summands {
@@ -161,8 +160,9 @@ class TreeBuilder {
     return std::span(table_.children).subspan(table_.first[i], table_.first[i + 1] - table_.first[i]);
   }
 
-  // A primitive and perhaps a bend for every internode, and again with a sum where it carries a group; a union and a sum
-  // where it is united with what it carries; a contact where branches touch, and a sum for each of several internodes; what joins the roots.
+  // A primitive and perhaps a bend for every internode, and again with a sum where it carries a group; a union and a
+  // sum where it is united with what it carries; a contact where branches touch, and a sum for each of several
+  // internodes; what joins the roots.
   std::size_t most_nodes() const {
     const std::size_t for_each = options_.bend_angle_degrees > 0 ? 2 : 1;
     std::size_t most = internodes_.size() * for_each;
@@ -246,8 +246,7 @@ class TreeBuilder {
       std::vector<NodeId> nodes;
       nodes.reserve(branches.size());
       for (const InternodeId branch : branches) nodes.push_back(as_node(subtree_of(branch)));
-      const ContactShape shape =
-          contact_shape_of(skeleton_, carrier, branches, options_.ridge_rules, options_.contact);
+      const ContactShape shape = contact_shape_of(skeleton_, carrier, branches, options_.ridge_rules, options_.contact);
       return single(tree_.add(Contact{shape}, std::move(nodes)));
     }
     Summands all;

@@ -1,7 +1,9 @@
 #include "blobtree/joint_plan.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "base/large_room.h"
 
@@ -9,8 +11,14 @@ namespace barkridge {
 
 namespace {
 
-// [GMW04, eq. 4], in base radii of the child.
+// [GMW04, eq. 4], in base radii of the thickest child.
 constexpr double kShortening = 1.75;
+
+// Thinner branches that fade leave their carrier's tip round enough, whatever their turn; in tip radii of the carrier.
+constexpr double kLeaderRadius = 0.8;
+
+// What is left of a shortened internode between two round caps, in its base radii: less would bulge.
+constexpr double kLeastShortened = 2;
 
 class Planner {
  public:
@@ -20,16 +28,13 @@ class Planner {
 
   std::vector<JointPlan> run() {
     for (std::size_t i = 0; i < internodes_.size(); ++i) {
-      plans_[i].fades_at_base = internodes_[i].parent != kNoInternode && !(is_alone(i) && turns_sharply(i));
-      plans_[i].fades_at_tip = child_count(i) > 0;
+      plans_[i].fades_at_tip = !children_of(i).empty() && !turns_sharply(i);
+      const InternodeId parent = internodes_[i].parent;
+      plans_[i].fades_at_base = parent != kNoInternode && plans_[static_cast<std::size_t>(parent)].fades_at_tip;
     }
-    // Children before parents: a joint that cannot be faded may leave its internode too short to fade at its base.
+    // Children before parents: a sharp joint may leave its internode too short to fade in.
     for (std::size_t i = internodes_.size(); i-- > 0;) {
-      if (has_sharp_tip(i)) plans_[i].fades_at_tip = false;
-      const bool may_be_sharp = plans_[i].fades_at_base && (is_alone(i) || is_thin_lateral(i));
-      if (may_be_sharp && !plans_[i].fades_at_tip && child_count(i) > 0 && length(i) < fade_end(i)) {
-        plans_[i].fades_at_base = false;
-      }
+      if (has_sharp_tip(i) && plans_[i].fades_at_base && length(i) < fade_end(i)) start_sharply(i);
     }
     for (std::size_t i = 0; i < internodes_.size(); ++i) {
       if (has_sharp_tip(i)) end_sharply(i);
@@ -38,38 +43,48 @@ class Planner {
   }
 
  private:
-  std::size_t child_count(std::size_t i) const { return table_.first[i + 1] - table_.first[i]; }
-  std::size_t first_child(std::size_t i) const { return static_cast<std::size_t>(table_.children[table_.first[i]]); }
-  const Internode& parent_of(std::size_t i) const {
-    return internodes_[static_cast<std::size_t>(internodes_[i].parent)];
+  std::span<const InternodeId> children_of(std::size_t i) const {
+    return std::span(table_.children).subspan(table_.first[i], table_.first[i + 1] - table_.first[i]);
   }
+  const Internode& internode(InternodeId id) const { return internodes_[static_cast<std::size_t>(id)]; }
   double length(std::size_t i) const { return glm::distance(internodes_[i].base, internodes_[i].tip); }
-
-  // Whether it is its parent's only child.
-  bool is_alone(std::size_t i) const {
-    const InternodeId parent = internodes_[i].parent;
-    return parent != kNoInternode && child_count(static_cast<std::size_t>(parent)) == 1;
-  }
-
-  // Whether a round cap at its base, on its parent's axis, does not reach through the parent's bark on the far side.
-  bool is_thin_lateral(std::size_t i) const {
-    return !is_alone(i) && 3 * internodes_[i].base_radius < 2 * parent_of(i).tip_radius;
-  }
+  bool has_sharp_tip(std::size_t i) const { return !plans_[i].fades_at_tip && !children_of(i).empty(); }
 
   bool turns_sharply(std::size_t i) const {
-    const Vec3 before = parent_of(i).tip - parent_of(i).base, after = internodes_[i].tip - internodes_[i].base;
-    const double most = std::cos(kMostFadedTurnDegrees * std::numbers::pi / 180);
-    return glm::dot(before, after) < most * glm::length(before) * glm::length(after);
+    const Vec3 before = internodes_[i].tip - internodes_[i].base;
+    Vec3 after(0);
+    double thickest = 0;
+    for (const InternodeId id : children_of(i)) {
+      const Internode& child = internode(id);
+      thickest = std::max(thickest, child.base_radius);
+      after += child.base_radius * child.base_radius * glm::normalize(child.tip - child.base);
+    }
+    if (children_of(i).size() > 1 && thickest < kLeaderRadius * internodes_[i].tip_radius) return false;
+    const double most = children_of(i).size() == 1 ? kMostFadedTurnDegrees : kMostFadedForkTurnDegrees;
+    return glm::dot(before, after) < std::cos(most * std::numbers::pi / 180) * glm::length(before) * glm::length(after);
   }
 
-  bool has_sharp_tip(std::size_t i) const { return child_count(i) == 1 && !plans_[first_child(i)].fades_at_base; }
-
   // Where an internode that fades in has done so.
-  double fade_end(std::size_t i) const { return parent_of(i).tip_radius + internodes_[i].base_radius; }
+  double fade_end(std::size_t i) const {
+    return internode(internodes_[i].parent).tip_radius + internodes_[i].base_radius;
+  }
+
+  // A round cap on its parent's axis instead of the fade. Unless it is too thin for the cap to reach through the bark
+  // on the far side, its siblings do the same.
+  void start_sharply(std::size_t i) {
+    plans_[i].fades_at_base = false;
+    const auto parent = static_cast<std::size_t>(internodes_[i].parent);
+    const auto siblings = children_of(parent);
+    if (siblings.size() > 1 && 3 * internodes_[i].base_radius < 2 * internodes_[parent].tip_radius) return;
+    plans_[parent].fades_at_tip = false;
+    for (const InternodeId sibling : siblings) plans_[static_cast<std::size_t>(sibling)].fades_at_base = false;
+  }
 
   void end_sharply(std::size_t i) {
-    const double shortening = kShortening * internodes_[first_child(i)].base_radius;
-    const double least = plans_[i].fades_at_base ? fade_end(i) : 0.0;
+    double thickest = 0;
+    for (const InternodeId child : children_of(i)) thickest = std::max(thickest, internode(child).base_radius);
+    const double shortening = kShortening * thickest;
+    const double least = plans_[i].fades_at_base ? fade_end(i) : kLeastShortened * internodes_[i].base_radius;
     if (length(i) - shortening > least) {
       plans_[i].shortening = shortening;
     } else {

@@ -21,8 +21,8 @@ struct Fork {
   double radius_ratio = 1;
 };
 
-/// The fork of an internode's children, of which there are at least two; `carrier` is the internode, or none. Of equally
-/// thick ones the first in the row counts as the thickest. Cost: linear in the children.
+/// The fork of an internode's children, of which there are at least two; `carrier` is the internode, or none. Of
+/// equally thick ones the first in the row counts as the thickest. Cost: linear in the children.
 Fork fork_of(const Skeleton& skeleton, InternodeId carrier, std::span<const InternodeId> children);
 
 /// A shape for forks whose measures all lie within closed ranges.

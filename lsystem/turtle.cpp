@@ -44,7 +44,7 @@ struct State {
   double width = 1;
   double scale = 1;
   int color = 0;
-  std::int32_t ridge = kNoRidge;  ///< index in the skeleton's ridges
+  std::int32_t ridge = kNoRidge;         ///< index in the skeleton's ridges
   InternodeId internode = kNoInternode;  ///< the last on this branch or before it
   bool begins_branch = false;            ///< no segment has been drawn since the bracket opened
   std::size_t opened_at = 0;             ///< the module that opened the bracket
@@ -398,13 +398,14 @@ class Turtle {
       now_.ridge = kNoRidge;
       return;
     }
-    const double width = value(), swelling = nearest_limit(modules_.parameters().size() > 1 ? value(1) : width / 4, width);
+    const double width = value(),
+                 swelling = nearest_limit(modules_.parameters().size() > 1 ? value(1) : width / 4, width);
     if (!(0 < width && width <= 0.5)) {
       fail(fmt::format("the ridge's width is {:g} here; expected one above 0 and up to 0.5", width));
     }
     if (!(width / 6 <= swelling && swelling <= 0.5)) {
-      fail(fmt::format("the ridge's swelling is {:g} here; expected one from a sixth of its width, {:g}, to 0.5", swelling,
-                       width / 6));
+      fail(fmt::format("the ridge's swelling is {:g} here; expected one from a sixth of its width, {:g}, to 0.5",
+                       swelling, width / 6));
     }
     const auto [known, is_new] =
         ridges_.emplace(std::pair(width, swelling), static_cast<std::int32_t>(skeleton_.ridges.size()));

@@ -169,7 +169,8 @@ void complete_ridge_rules(const std::vector<Setting>& settings, const std::strin
     try {
       check(contact);
     } catch (const InputError& error) {
-      const std::string swelling = fmt::format("ridge.{}.swelling", number), width = fmt::format("ridge.{}.width", number);
+      const std::string swelling = fmt::format("ridge.{}.swelling", number),
+                        width = fmt::format("ridge.{}.width", number);
       throw InputError(place_of(settings, {swelling.c_str(), width.c_str()}, path), error.message());
     }
     scene.tree.ridge_rules.push_back({stated.orders, stated.angles_degrees, stated.radius_ratios, contact});

@@ -64,7 +64,8 @@ void add_skeleton(Sha256& hash, const Skeleton& skeleton) {
 }
 
 bool is_seen(std::string_view key) {
-  for (const std::string_view section : {"junction.", "ridge.", "bend.", "camera.", "sun.", "sky.", "ground.", "material."}) {
+  for (const std::string_view section :
+       {"junction.", "ridge.", "bend.", "camera.", "sun.", "sky.", "ground.", "material."}) {
     if (key.starts_with(section)) return true;
   }
   return false;

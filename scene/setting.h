@@ -27,9 +27,9 @@ struct Setting {
   int text_line = 1, text_column = 1;
 };
 
-/// The settings of a TOML text, flat and in the order of the text. Tables appear themselves only when they are empty. In
-/// the keys of an array of tables, their number, from 0 on, follows the array's name.
-/// Throws `InputError` for what is not TOML.
+/// The settings of a TOML text, flat and in the order of the text. Tables appear themselves only when they are empty.
+/// In the keys of an array of tables, their number, from 0 on, follows the array's name. Throws `InputError` for what
+/// is not TOML.
 std::vector<Setting> read_settings(std::string_view text, const std::string& file);
 
 /// A TOML value, or any other text as it stands. `origin` is the place in messages.

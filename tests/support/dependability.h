@@ -27,6 +27,7 @@ inline Vec3 wild_direction(RandomSource& random, const Vec3& axis, const std::ve
 /// A tree that no gardener would plant: orders up to 1 to 5, 1 to 8 branches at a point, at 5 to 120 degrees to what
 /// carries them and mostly 25 or more to each other, internodes from a fifth to ten of their radii long, radii by da
 /// Vinci's rule with shares of 0.1 to 1.
+/// Branches stop growing where there are `internodes` or a few more.
 inline Skeleton wild_skeleton(std::uint64_t seed, int internodes = 30) {
   RandomSource random(seed ^ 0x9e3779b97f4a7c15ull);
   Skeleton skeleton;
@@ -39,12 +40,13 @@ inline Skeleton wild_skeleton(std::uint64_t seed, int internodes = 30) {
   const int highest_order = random.integer(1, 5);
   const auto length_of = [&](double radius) { return radius * 0.2 * std::pow(50.0, random.unit()); };
   std::vector<Tip> tips{{kNoInternode, Vec3(0), Vec3(0, 1, 0), 1, 0}};
-  for (std::size_t next = 0; next < tips.size() && static_cast<int>(skeleton.internodes.size()) < internodes; ++next) {
+  for (std::size_t next = 0; next < tips.size(); ++next) {
     const Tip tip = tips[next];
     const Vec3 end = tip.position + length_of(tip.radius) * tip.direction;
     const double tip_radius = tip.radius * random.uniform(0.9, 1);
     const auto id = static_cast<InternodeId>(skeleton.internodes.size());
     skeleton.internodes.push_back({tip.position, end, tip.radius, tip_radius, tip.parent, tip.order});
+    if (static_cast<int>(tips.size()) >= internodes) continue;
     const int children = tip.order == highest_order || random.chance(0.4) ? 1 : random.integer(2, 8);
     std::vector<double> shares;
     double sum = 0;
@@ -53,8 +55,8 @@ inline Skeleton wild_skeleton(std::uint64_t seed, int internodes = 30) {
     std::vector<Vec3> directions;
     for (const double share : shares) {
       directions.push_back(wild_direction(random, tip.direction, directions));
-      tips.push_back({id, end, directions.back(), tip_radius * std::sqrt(share / sum),
-                      tip.order + (share == largest ? 0 : 1)});
+      tips.push_back(
+          {id, end, directions.back(), tip_radius * std::sqrt(share / sum), tip.order + (share == largest ? 0 : 1)});
     }
   }
   return skeleton;
@@ -78,8 +80,8 @@ struct Dependability {
   /// How far the surface lies inside of an internode's own radius, in units of that; up to a tenth of a radius before
   /// its fork.
   Worst necking;
-  /// How much the radius rises after a dip along an internode, in units of its own, on such sides and farther than three
-  /// of the thickest radii from forks and tips.
+  /// How much the radius rises after a dip along an internode, in units of its own, on such sides and farther than
+  /// three of the thickest radii from forks and tips.
   Worst ring;
   /// Places on the axis that are outside of the solid.
   int missing = 0;
@@ -199,17 +201,17 @@ inline Dependability dependability_of(const Skeleton& skeleton, const Field& fie
     }
     return glm::distance(p, all[0].base) >= 3 * all[0].base_radius;
   };
-  // What reaches a ray's end and lies on its side makes a fillet; what the tree's way to is much longer than the straight
-  // one passes by.
+  // What reaches a ray's end and lies on its side makes a fillet; what the tree's way to is much longer than the
+  // straight one passes by.
   const Ways ways(skeleton);
   const auto is_free = [&](std::size_t i, const Ray& ray, const Vec3& end) {
     for (std::size_t b = 0; b < all.size(); ++b) {
       Vec3 nearest;
       const double thick = std::max(all[b].base_radius, all[b].tip_radius);
       if (b == i || distance_to(all[b], end, nearest) >= 2 * thick) continue;
-      const double to_side = std::max({glm::dot(nearest - ray.origin, ray.direction),
-                                       glm::dot(all[b].base - ray.origin, ray.direction),
-                                       glm::dot(all[b].tip - ray.origin, ray.direction)});
+      const double to_side =
+          std::max({glm::dot(nearest - ray.origin, ray.direction), glm::dot(all[b].base - ray.origin, ray.direction),
+                    glm::dot(all[b].tip - ray.origin, ray.direction)});
       if (to_side > 0.2 * std::min(thick, ray.own)) return false;
       const double way = ways.between(i, ray.origin, b, nearest);
       if (way > 1.5 * glm::distance(ray.origin, nearest) + 0.5 * ray.own) return false;
