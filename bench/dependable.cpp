@@ -26,6 +26,7 @@ struct Options {
   std::vector<std::string> surfaces{"ridge", "smooth", "confined"};
   bool mesh = false;
   int worst = 0;
+  double round_turn_degrees = TreeOptions{}.round_turn_degrees;
 };
 
 struct Result {
@@ -48,7 +49,9 @@ Result result_of(std::uint64_t seed, const std::string& surface, const Options& 
   Result result;
   result.seed = seed;
   const Skeleton skeleton = test::wild_skeleton(seed, options.internodes);
-  const auto field = compile(tree_from_skeleton(skeleton, surface_options(surface)));
+  TreeOptions tree_options = surface_options(surface);
+  tree_options.round_turn_degrees = options.round_turn_degrees;
+  const auto field = compile(tree_from_skeleton(skeleton, tree_options));
   result.surface = test::dependability_of(skeleton, *field);
   if (options.mesh) result.pieces = pieces_of(*field, skeleton);
   return result;
@@ -78,10 +81,11 @@ Table worst_table(const std::string& title, std::vector<Result> results, const M
 
 void measure(const Options& options, Study& study) {
   Table table{.title = "Wild trees",
-              .columns = {"surface", "trees", "hold", "swell", "neck", "ring", "missing", "in pieces", "most swelling",
-                          "most necking", "highest ring"},
+              .columns = {"surface", "trees", "hold", "swell", "neck", "ring", "missing", "in pieces", "off axis",
+                          "most swelling", "most necking", "highest ring"},
               .rows = {},
               .notes = {"swell, neck: by more than 5 %; ring: a rise of more than 1 %; missing: an axis outside",
+                        "off axis: a corner rounded by more than 5 %, which is no defect",
                         options.mesh ? "in pieces: by meshes of two cells a thinnest radius" : "pieces not counted"}};
   std::vector<Table> worst;
   for (const std::string& surface : options.surfaces) {
@@ -96,12 +100,14 @@ void measure(const Options& options, Study& study) {
     const Measure necking = [](const Result& r) -> const Worst& { return r.surface.necking; };
     const Measure ring = [](const Result& r) -> const Worst& { return r.surface.ring; };
     const auto hold = count([](const Result& r) { return r.holds(); });
-    table.rows.push_back(
-        {surface, options.trees, hold, count([&](const Result& r) { return swelling(r).value > 0.05; }),
-         count([&](const Result& r) { return necking(r).value > 0.05; }),
-         count([&](const Result& r) { return ring(r).value > 0.01; }),
-         count([](const Result& r) { return r.surface.missing > 0; }),
-         count([](const Result& r) { return r.pieces != 1; }), most(swelling), most(necking), most(ring)});
+    table.rows.push_back({surface, options.trees, hold,
+                          count([&](const Result& r) { return swelling(r).value > 0.05; }),
+                          count([&](const Result& r) { return necking(r).value > 0.05; }),
+                          count([&](const Result& r) { return ring(r).value > 0.01; }),
+                          count([](const Result& r) { return r.surface.missing > 0; }),
+                          count([](const Result& r) { return r.pieces != 1; }),
+                          count([](const Result& r) { return r.surface.rounding.value > 0.05; }), most(swelling),
+                          most(necking), most(ring)});
     study.figure("dependable_share_" + surface, static_cast<double>(hold) / options.trees);
     worst.push_back(worst_table(surface + ", swelling", results, swelling, options.worst));
     worst.push_back(worst_table(surface + ", necking", results, necking, options.worst));
@@ -127,6 +133,8 @@ int main(int argc, char** argv) {
         app.add_option("--internodes", options.internodes, "Most internodes a tree")->capture_default_str();
         app.add_option("--surface", options.surfaces, "Any of smooth, ridge, bend and confined")
             ->delimiter(',')
+            ->capture_default_str();
+        app.add_option("--round-turn", options.round_turn_degrees, "Degrees up to which corners are rounded")
             ->capture_default_str();
         app.add_flag("--mesh", options.mesh, "Count the pieces, too");
         app.add_option("--worst", options.worst, "Show so many of the worst places")->capture_default_str();

@@ -110,7 +110,7 @@ class TreeBuilder {
       double& thickest = thickest_child_[static_cast<std::size_t>(child.parent)];
       thickest = std::max(thickest, child.base_radius);
     }
-    if (options.joint == JointKind::kFaded) plans_ = plan_joints(skeleton, table_);
+    if (options.joint == JointKind::kFaded) plans_ = plan_joints(skeleton, table_, options.round_turn_degrees);
     resize_large(subtrees_, internodes_.size());
     const std::size_t most = most_nodes();
     reserve_large(tree_.nodes, most);
@@ -276,6 +276,10 @@ BlobTree tree_from_skeleton(const Skeleton& skeleton, const TreeOptions& options
   for (const RidgeRule& rule : options.ridge_rules) check(rule.contact);
   for (const Ridge& ridge : skeleton.ridges) {
     check(ContactShape{ridge.width, ridge.swelling, options.contact.allow_large_swelling});
+  }
+  if (!(0 <= options.round_turn_degrees && options.round_turn_degrees <= 180)) {
+    throw InputError(
+        fmt::format("round turn {} is outside its range: 0 <= round_turn_degrees <= 180", options.round_turn_degrees));
   }
   if (!(0 <= options.bend_angle_degrees && options.bend_angle_degrees < 180)) {
     throw InputError(

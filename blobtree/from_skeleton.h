@@ -28,6 +28,8 @@ struct TreeOptions {
   JunctionKind junction = JunctionKind::kRidge;
   JointKind joint = JointKind::kFaded;
   BlendingKind blending = BlendingKind::kSubtrees;
+  /// Up to this turn faded joints round their corners; past it the axis keeps its radius around a sharp one.
+  double round_turn_degrees = 30;
   /// The shape of ridges, but where the skeleton or a rule has another one for a fork.
   ContactShape contact;
   std::vector<RidgeRule> ridge_rules;
@@ -40,7 +42,7 @@ struct TreeOptions {
 /// children of the ground; plants rooted apart are united and do not blend. With confined blending, F is the largest of
 /// such fields over groups of internodes: those that meet at a junction, or at several with only short internodes
 /// between them. A long internode stands in both of its ends' groups. Cost: linear in internodes, whatever the depth,
-/// times the number of rules. Throws `InputError` for contact shapes or bend angles outside their ranges.
+/// times the number of rules. Throws `InputError` for contact shapes, turns or bend angles outside their ranges.
 BlobTree tree_from_skeleton(const Skeleton& skeleton, const TreeOptions& options = {});
 
 }  // namespace barkridge

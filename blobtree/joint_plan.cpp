@@ -22,7 +22,10 @@ constexpr double kLeastShortened = 2;
 
 class Planner {
  public:
-  Planner(const Skeleton& skeleton, const ChildTable& table) : internodes_(skeleton.internodes), table_(table) {
+  Planner(const Skeleton& skeleton, const ChildTable& table, double round_turn_degrees)
+      : internodes_(skeleton.internodes),
+        table_(table),
+        least_cosine_(round_turn_degrees < 180 ? std::cos(round_turn_degrees * std::numbers::pi / 180) : -2) {
     resize_large(plans_, internodes_.size());
   }
 
@@ -60,8 +63,7 @@ class Planner {
       after += child.base_radius * child.base_radius * glm::normalize(child.tip - child.base);
     }
     if (children_of(i).size() > 1 && thickest < kLeaderRadius * internodes_[i].tip_radius) return false;
-    const double most = children_of(i).size() == 1 ? kMostFadedTurnDegrees : kMostFadedForkTurnDegrees;
-    return glm::dot(before, after) < std::cos(most * std::numbers::pi / 180) * glm::length(before) * glm::length(after);
+    return glm::dot(before, after) < least_cosine_ * glm::length(before) * glm::length(after);
   }
 
   // Where an internode that fades in has done so.
@@ -94,13 +96,14 @@ class Planner {
 
   const std::vector<Internode>& internodes_;
   const ChildTable& table_;
+  const double least_cosine_;
   std::vector<JointPlan> plans_;
 };
 
 }  // namespace
 
-std::vector<JointPlan> plan_joints(const Skeleton& skeleton, const ChildTable& table) {
-  return Planner(skeleton, table).run();
+std::vector<JointPlan> plan_joints(const Skeleton& skeleton, const ChildTable& table, double round_turn_degrees) {
+  return Planner(skeleton, table, round_turn_degrees).run();
 }
 
 }  // namespace barkridge

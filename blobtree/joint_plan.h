@@ -16,12 +16,10 @@ struct JointPlan {
   double shortening = 0;  ///< of its tip, in scene units; less than its length
 };
 
-/// The turn of a joint is the angle between an internode's axis and the mean direction of its children, weighted by the
-/// cross-sections of their bases. Up to these turns joints fade: with a single child, and with several.
-inline constexpr double kMostFadedTurnDegrees = 8, kMostFadedForkTurnDegrees = 30;
-
-/// The plans of all internodes. Past a sharp joint, children start with round caps; what carries them is shortened as
-/// in the papers [GMW04, eq. 4] or, where it is too short for that, united with them. Cost: linear.
-std::vector<JointPlan> plan_joints(const Skeleton& skeleton, const ChildTable& table);
+/// The plans of all internodes. The turn of a joint is the angle between an internode's axis and the mean direction of
+/// its children, weighted by the cross-sections of their bases. Past `round_turn_degrees` a joint is sharp, unless all
+/// of several children are thin: they start with round caps, and what carries them is shortened as in the papers
+/// [GMW04, eq. 4] or, where it is too short for that, united with them. Cost: linear.
+std::vector<JointPlan> plan_joints(const Skeleton& skeleton, const ChildTable& table, double round_turn_degrees);
 
 }  // namespace barkridge

@@ -77,9 +77,11 @@ struct Dependability {
   /// How far the surface lies from the nearest axis beyond the thickest radius that meets there (at a junction within
   /// three of that, or the internode's own), in units of it, on sides where no other axis lies and none passes by.
   Worst swelling;
-  /// How far the surface lies inside of an internode's own radius, in units of that; up to a tenth of a radius before
-  /// its fork.
+  /// How far half the solid's thickness, along a line across the axis, falls short of the internode's own radius, in
+  /// units of that; up to a tenth of a radius before its fork.
   Worst necking;
+  /// The same of the radius by itself: more than that where a corner is rounded. No defect.
+  Worst rounding;
   /// How much the radius rises after a dip along an internode, in units of its own, on such sides and farther than
   /// three of the thickest radii from forks and tips.
   Worst ring;
@@ -244,7 +246,11 @@ inline Dependability dependability_of(const Skeleton& skeleton, const Field& fie
         continue;
       }
       const bool before_fork = children(i) > 0 && (1 - ray.along) * length < 0.1 * a.tip_radius;
-      if (!before_fork) result.necking.consider(1 - radii[k] / ray.own, i, ray.along, ray.azimuth);
+      if (!before_fork) {
+        const double opposite = radii[(k + rays.size() / 2) % rays.size()];
+        result.necking.consider(1 - 0.5 * (radii[k] + opposite) / ray.own, i, ray.along, ray.azimuth);
+        result.rounding.consider(1 - radii[k] / ray.own, i, ray.along, ray.azimuth);
+      }
       const Vec3 end = ray.origin + radii[k] * ray.direction;
       if (!is_free(i, ray, end)) continue;
       double outside = std::numeric_limits<double>::infinity();
