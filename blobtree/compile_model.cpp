@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <span>
+#include <utility>
 
 #include "base/large_room.h"
 #include "blobtree/contact.h"
@@ -213,11 +215,11 @@ class ModelCompiler {
     visit_commutative(Op::kRicci, id, parent, rank, model_->exponents.size() - 1);
   }
   void visit_operator(const Contact& contact, NodeId id, std::uint32_t parent, std::uint8_t rank) {
-    // A tree from a skeleton has one shape for all its contacts.
-    std::vector<ContactShape>& shapes = model_->contacts;
-    if (shapes.empty() || !(shapes.back() == contact.shape)) shapes.push_back(contact.shape);
+    const auto [known, is_new] =
+        shapes_.emplace(std::pair(contact.shape.width, contact.shape.swelling), model_->contacts.size());
+    if (is_new) model_->contacts.push_back(contact.shape);
     model_->is_below_sum = model_->is_below_sum && is_below_sum(contact.shape);
-    visit_commutative(Op::kContact, id, parent, rank, shapes.size() - 1);
+    visit_commutative(Op::kContact, id, parent, rank, known->second);
   }
   void visit_operator(const Negative&, NodeId id, std::uint32_t parent, std::uint8_t rank) {
     const std::vector<NodeId>& children = tree_.nodes[id].children;
@@ -322,7 +324,8 @@ class ModelCompiler {
   std::vector<std::uint32_t> needs_;
   std::vector<Box> supports_;
   bool has_negatives_ = false;
-  bool has_others_ = false;  // primitives that are no cones
+  bool has_others_ = false;                                  // primitives that are no cones
+  std::map<std::pair<double, double>, std::size_t> shapes_;  // contacts by width and swelling: a tree has but a few
   std::vector<Task> pending_;
   std::vector<NodeId> waiting_;          // primitives of the sums whose other operands find their places
   std::vector<NodeId> nested_, others_;  // room for `visit_sum`

@@ -17,6 +17,9 @@ namespace barkridge {
 
 namespace {
 
+// What meets at a junction is taken to have died out on an internode so many of the thickest radii away from it.
+constexpr double kJunctionReach = 2;
+
 // Nodes that are to be summed: a subtree before anything but a sum has needed it as one node. Each is linked to the
 // next, so that rows of any length become one at no cost.
 struct Summands {
@@ -37,18 +40,33 @@ class TreeBuilder {
   }
 
   PlantTree run() {
-    // Children before parents: the summands of a subtree move up the axis and become a node where branches touch.
+    // Children before parents: the summands of a subtree move up the axis and become a node where branches touch. A
+    // long internode ends them where blending is confined: what meets at its tip is a group of its own, unless something
+    // is carved out of the internode, of which there is but one copy then.
     auto carving = carvings_.begin();
+    std::vector<NodeId> apart;
+    std::vector<bool> is_split(plant_.size());
     for (std::size_t i = plant_.size(); i-- > 0;) {
       primitives_[i] = kNoNode;
       if (plant_.scar_of(i)) continue;
-      Summands subtree = join(plant_.children_of(i));
+      Summands subtree = join(static_cast<InternodeId>(i), plant_.children_of(i));
       const NodeId internode = plant_.add_primitive(tree_, i);
       primitives_[i] = tree_.nodes[internode].children.empty() ? internode : tree_.nodes[internode].children[0];
-      append(subtree, single(internode));
+      if (plant_.is_united(i) && subtree.count > 0) {
+        const NodeId carried = as_node(subtree);
+        subtree = single(tree_.add(Union{}, {internode, carried}));
+      } else {
+        append(subtree, single(internode));
+      }
       const auto first = carving;
       while (carving != carvings_.end() && carving->internode == static_cast<InternodeId>(i)) ++carving;
-      if (first != carving) carve(subtree, std::span(first, carving));
+      if (first != carving) {
+        carve(subtree, std::span(first, carving));
+      } else if (carries_group(i)) {
+        is_split[i] = true;
+        apart.push_back(as_node(subtree));
+        subtree = single(plant_.add_primitive(tree_, i));
+      }
       subtrees_[i] = subtree;
     }
     // Roots that start at one point are children of the ground there.
@@ -57,8 +75,12 @@ class TreeBuilder {
       const Vec3& base = plant_.internode(static_cast<std::size_t>(root)).base;
       plants[{base.x, base.y, base.z}].push_back(root);
     }
-    std::vector<NodeId> apart;
-    for (const auto& [base, roots] : plants) apart.push_back(as_node(join(roots)));
+    for (const auto& [base, roots] : plants) {
+      // A root by itself adds nothing to the group that it carries.
+      if (roots.size() > 1 || !is_split[static_cast<std::size_t>(roots.front())]) {
+        apart.push_back(as_node(join(kNoInternode, roots)));
+      }
+    }
     if (apart.size() > 1)
       tree_.add(Union{}, std::move(apart));
     else if (apart.size() == 1)
@@ -67,10 +89,15 @@ class TreeBuilder {
   }
 
  private:
-  // A primitive and perhaps a bend for every internode; a contact where branches touch, and a sum for each of several
+  // A primitive and perhaps a bend for every internode, and again with a sum where it carries a group; a union and a
+  // sum where it is united with what it carries; a contact where branches touch, and a sum for each of several
   // internodes; what joins the roots.
   std::size_t most_nodes() const {
-    std::size_t most = plant_.size() * (plant_.has_arcs() ? 2 : 1);
+    const std::size_t for_each = plant_.has_arcs() ? 2 : 1;
+    std::size_t most = plant_.size() * for_each;
+    for (std::size_t i = 0; i < plant_.size(); ++i) {
+      most += (carries_group(i) ? for_each + 1 : 0) + (plant_.is_united(i) ? 2 : 0);
+    }
     most += 3 * plant_.children_of(plant_.size()).size() + 1;
     if (plant_.options().junction == JunctionKind::kSmooth) return most;
     for (std::size_t i = 0; i < plant_.size(); ++i) {
@@ -81,6 +108,20 @@ class TreeBuilder {
               }));
     }
     return most;
+  }
+
+  // Whether blending ends at an internode: it has children, and what meets at its base has died out where what meets at
+  // its tip begins.
+  bool carries_group(std::size_t i) const {
+    if (plant_.options().blending != BlendingKind::kConfined || plant_.children_of(i).empty()) return false;
+    const Internode& a = plant_.internode(i);
+    const double at_tip = std::max(a.tip_radius, plant_.neighbourhood_of(i).thickest_child);
+    double at_base = a.base_radius;
+    if (a.parent != kNoInternode) {
+      const auto parent = static_cast<std::size_t>(a.parent);
+      at_base = std::max({at_base, plant_.internode(parent).tip_radius, plant_.neighbourhood_of(parent).thickest_child});
+    }
+    return glm::distance(a.base, a.tip) > kJunctionReach * (at_base + at_tip);
   }
 
   static Summands single(NodeId node) { return {node, node, 1}; }
@@ -106,8 +147,10 @@ class TreeBuilder {
   }
 
   // What branches that start at one point are together.
-  Summands join(std::span<const InternodeId> branches) {
-    if (branches.size() > 1 && plant_.options().junction == JunctionKind::kRidge) return join_by_contact(branches);
+  Summands join(InternodeId carrier, std::span<const InternodeId> branches) {
+    if (branches.size() > 1 && plant_.options().junction == JunctionKind::kRidge) {
+      return join_by_contact(carrier, branches);
+    }
     Summands all;
     for (const InternodeId branch : branches) {
       Summands subtree = subtrees_[static_cast<std::size_t>(branch)];
@@ -117,18 +160,19 @@ class TreeBuilder {
     return all;
   }
 
-  Summands join_by_contact(std::span<const InternodeId> branches) {
-    std::vector<Summands> subtrees;
-    subtrees.reserve(branches.size());
+  Summands join_by_contact(InternodeId carrier, std::span<const InternodeId> branches) {
+    std::vector<InternodeId> standing;
     for (const InternodeId branch : branches) {
-      const Summands& subtree = subtrees_[static_cast<std::size_t>(branch)];
-      if (subtree.count > 0) subtrees.push_back(subtree);
+      if (subtrees_[static_cast<std::size_t>(branch)].count > 0) standing.push_back(branch);
     }
-    if (subtrees.size() < 2) return subtrees.empty() ? Summands{} : subtrees[0];
+    if (standing.empty()) return {};
+    if (standing.size() == 1) return subtrees_[static_cast<std::size_t>(standing[0])];
     std::vector<NodeId> nodes;
-    nodes.reserve(subtrees.size());
-    for (const Summands& subtree : subtrees) nodes.push_back(as_node(subtree));
-    return single(tree_.add(Contact{plant_.options().contact}, std::move(nodes)));
+    nodes.reserve(standing.size());
+    for (const InternodeId branch : standing) nodes.push_back(as_node(subtrees_[static_cast<std::size_t>(branch)]));
+    const ContactShape shape = contact_shape_of(plant_.skeleton(), carrier, standing, plant_.options().ridge_rules,
+                                                plant_.options().contact);
+    return single(tree_.add(Contact{shape}, std::move(nodes)));
   }
 
   // What missing organs make of a subtree: first sums, then negative fields, then cuts.
@@ -160,6 +204,14 @@ class TreeBuilder {
 
 PlantTree plant_from_skeleton(Skeleton skeleton, const TreeOptions& options) {
   check(options.contact);
+  for (const RidgeRule& rule : options.ridge_rules) check(rule.contact);
+  for (const Ridge& ridge : skeleton.ridges) {
+    check(ContactShape{ridge.width, ridge.swelling, options.contact.allow_large_swelling});
+  }
+  if (!(0 <= options.round_turn_degrees && options.round_turn_degrees <= 180)) {
+    throw InputError(
+        fmt::format("round turn {} is outside its range: 0 <= round_turn_degrees <= 180", options.round_turn_degrees));
+  }
   std::vector<Arc> arcs;
   if (shapes_axes(options)) {
     Axes axes = axes_of(skeleton, options);

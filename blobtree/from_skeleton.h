@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "blobtree/ridge_rules.h"
 #include "blobtree/tree.h"
 #include "lsystem/selection.h"
 #include "lsystem/skeleton.h"
@@ -18,6 +19,12 @@ enum class JunctionKind {
 enum class JointKind {
   kFaded,  ///< fields fade along the axes with weights that sum to one (docs/field.md)
   kPaper,  ///< skeletons are shortened and displaced [GMW04, eqs. 4, 7, 8]
+};
+
+/// How far the blending of a junction goes.
+enum class BlendingKind {
+  kSubtrees,  ///< whole subtrees are joined, as in the papers [GMW04, eqs. 5, 6]
+  kConfined,  ///< internodes that meet are joined, and the largest of all these fields counts (docs/field.md)
 };
 
 /// Bends some internodes.
@@ -48,7 +55,12 @@ struct TipRule {
 struct TreeOptions {
   JunctionKind junction = JunctionKind::kRidge;
   JointKind joint = JointKind::kFaded;
+  BlendingKind blending = BlendingKind::kSubtrees;
+  /// Up to this turn faded joints round their corners; past it the axis keeps its radius around a sharp one.
+  double round_turn_degrees = 30;
+  /// The shape of ridges, but where the skeleton or a rule has another one for a fork.
   ContactShape contact;
+  std::vector<RidgeRule> ridge_rules;
   /// Total angle by which every internode that is not collinear with its parent is bent; 0 for straight ones. [GMW04,
   /// section 3.6] Where a bent internode alone continues another, both are bent to a common tangent instead, whatever
   /// their angles. [docs/field.md, "Bend"]
@@ -61,8 +73,10 @@ struct TreeOptions {
 /// The BlobTree of a plant: F(A) = F_A + J(F(B_1), .., F(B_m)) for an internode A that carries B_1 .. B_m, J being
 /// contact or sum by the junction's kind [GMW04, eqs. 5, 6]. Roots that start at the same point are joined like
 /// children of the ground; plants rooted apart are united and do not blend. Cut ends get their faces and scars their
-/// hollows. [docs/field.md, "Missing organs"] Cost: linear in internodes, whatever the depth. Throws `InputError` for
-/// numbers outside their ranges and for cut ends and scars of internodes that have children.
+/// hollows. [docs/field.md, "Missing organs"] With confined blending, F is the largest of such fields over groups of
+/// internodes: those that meet at a junction, or at several with only short internodes between them. A long internode
+/// stands in both of its ends' groups. Cost: linear in internodes, whatever the depth, times the number of rules. Throws
+/// `InputError` for numbers outside their ranges and for cut ends and scars of internodes that have children.
 BlobTree tree_from_skeleton(const Skeleton& skeleton, const TreeOptions& options = {});
 
 /// The tree, which of its nodes is each internode's primitive, and the skeleton that these internodes are of: with

@@ -31,8 +31,34 @@ Cone paper_cone(const Internode& a, const Neighbourhood& near, JunctionKind junc
           std::max(thinnest, a.base_radius + taper * end)};
 }
 
-FadedCone faded_cone(const Internode& a, const Neighbourhood& near) {
-  return {a.base, a.tip, a.base_radius, a.tip_radius, near.parent ? near.parent->tip_radius : 0.0, near.thickest_child};
+// Radii stay on the internode's taper line where its tip is shortened.
+FadedCone faded_cone(const Internode& a, const Neighbourhood& near, const JointPlan& plan) {
+  const double part = 1 - plan.shortening / glm::distance(a.base, a.tip);
+  return {a.base,
+          a.base + part * (a.tip - a.base),
+          a.base_radius,
+          a.base_radius + part * (a.tip_radius - a.base_radius),
+          plan.fades_at_base ? near.parent->tip_radius : 0.0,
+          plan.fades_at_tip ? near.thickest_child : 0.0};
+}
+
+// The table without what is shed.
+ChildTable standing_children(const Skeleton& skeleton, ChildTable table) {
+  if (skeleton.scars.empty()) return table;
+  std::vector<bool> is_shed(skeleton.internodes.size());
+  for (const Scar& scar : skeleton.scars) is_shed[static_cast<std::size_t>(scar.internode)] = true;
+  std::uint32_t kept = 0, next = 0;
+  for (std::size_t i = 0; i + 1 < table.first.size(); ++i) {
+    const std::uint32_t end = table.first[i + 1];
+    table.first[i] = kept;
+    for (; next < end; ++next) {
+      const InternodeId child = table.children[next];
+      if (!is_shed[static_cast<std::size_t>(child)]) table.children[kept++] = child;
+    }
+  }
+  table.first.back() = kept;
+  table.children.resize(kept);
+  return table;
 }
 
 template <typename Primitive>
@@ -61,6 +87,9 @@ const Marked* find(const std::vector<Marked>& all, std::size_t i) {
 
 Plant::Plant(const Skeleton& skeleton, std::span<const Arc> arcs, const TreeOptions& options)
     : skeleton_(skeleton), arcs_(arcs), options_(options), table_(child_table(skeleton)) {
+  if (options.joint == JointKind::kFaded) {
+    plans_ = plan_joints(skeleton, standing_children(skeleton, table_), options.round_turn_degrees);
+  }
   const auto require_bare = [&](const auto& marked, const char* what) {
     InternodeId last = kNoInternode;
     for (const auto& m : marked) {
@@ -117,7 +146,7 @@ NodeId Plant::add_primitive(BlobTree& tree, std::size_t i) const {
     }
     return add_bent(tree, primitive, a, arc(i));
   };
-  return options_.joint == JointKind::kPaper ? add(paper_cone(a, near, options_.junction)) : add(faded_cone(a, near));
+  return options_.joint == JointKind::kPaper ? add(paper_cone(a, near, options_.junction)) : add(faded_cone(a, near, plans_[i]));
 }
 
 double length_past_cut(const Internode& internode, const Vec3& axis, const CutEnd& end) {

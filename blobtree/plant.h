@@ -6,6 +6,7 @@
 
 #include "blobtree/axes.h"
 #include "blobtree/from_skeleton.h"
+#include "blobtree/joint_plan.h"
 
 namespace barkridge {
 
@@ -33,6 +34,8 @@ class Plant {
     return std::span(table_.children).subspan(table_.first[i], table_.first[i + 1] - table_.first[i]);
   }
   Neighbourhood neighbourhood_of(std::size_t i) const;
+  /// Whether the larger of the internode's field and that of what it carries counts, instead of their sum.
+  bool is_united(std::size_t i) const { return !plans_.empty() && plans_[i].is_united; }
 
   /// Null where there is none.
   const CutEnd* cut_end_of(std::size_t i) const;
@@ -47,6 +50,7 @@ class Plant {
   std::span<const Arc> arcs_;
   const TreeOptions& options_;
   ChildTable table_;
+  std::vector<JointPlan> plans_;  // by internode, of faded joints
 };
 
 /// How far past a cut its internode's axis goes on, so that neither the tilted face nor the splinters meet its round

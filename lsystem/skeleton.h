@@ -15,6 +15,16 @@ namespace barkridge {
 using InternodeId = std::int32_t;
 inline constexpr InternodeId kNoInternode = -1;
 
+/// How the bark ridge of a fork is to be shaped: the extent and the height of the swelling beside it, in field units.
+/// [docs/field.md, "Precise contact"]
+struct Ridge {
+  double width = 0.5;
+  double swelling = 0.125;
+
+  bool operator==(const Ridge&) const = default;
+};
+inline constexpr std::int32_t kNoRidge = -1;
+
 /// A straight piece of a branch, a truncated cone: lengths in scene units, radii (not diameters).
 struct Internode {
   Vec3 base{0};
@@ -28,6 +38,8 @@ struct Internode {
   std::int32_t birth_step = 0;
   /// Its index in the skeleton that this one was pruned from; -1 where it has its own. See `identity`.
   InternodeId source = -1;
+  /// Index in the skeleton's ridges: the shape of the ridge between this internode and others that start at its base.
+  std::int32_t ridge = kNoRidge;
 };
 
 /// Something other than an internode that the turtle drew: a leaf surface, a sphere, a disc.
@@ -80,6 +92,7 @@ struct Scar {
 struct Skeleton {
   std::vector<Internode> internodes;
   std::vector<Organ> organs;
+  std::vector<Ridge> ridges;
   std::vector<ShedBranch> shed_branches;
   /// In the order of their internodes; no internode has more than one of these.
   std::vector<CutEnd> cut_ends;

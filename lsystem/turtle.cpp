@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "lsystem/homomorphism.h"
@@ -52,6 +54,7 @@ struct State {
   double width = 1;
   double scale = 1;
   int color = 0;
+  std::int32_t ridge = kNoRidge;         ///< index in the skeleton's ridges
   InternodeId internode = kNoInternode;  ///< the last on this branch or before it
   bool begins_branch = false;            ///< no segment has been drawn since the bracket opened
   std::size_t opened_at = 0;             ///< the module that opened the bracket
@@ -229,6 +232,7 @@ class Turtle {
       internode.order = skeleton_.internodes[static_cast<std::size_t>(now_.internode)].order + now_.begins_branch;
     }
     internode.birth_step = modules_.module().birth_step;
+    internode.ridge = now_.ridge;
     now_.internode = static_cast<InternodeId>(skeleton_.internodes.size());
     now_.begins_branch = false;
     skeleton_.internodes.push_back(internode);
@@ -344,7 +348,7 @@ class Turtle {
         (command == 'D' && letter->parameter_count == 0)) {
       return obey_at_with_suffix(command, letter->parameter_count > 0);
     }
-    if (std::string_view(",;ocOvRMLSDIJ#!Kk").find(command) == std::string_view::npos) return;
+    if (std::string_view(",;ocOvRMWLSDIJ#!Kk").find(command) == std::string_view::npos) return;
     modules_.take_operand();
     switch (command) {
       case 'o':
@@ -357,6 +361,8 @@ class Turtle {
         return set_heading();
       case 'M':
         return set_position();
+      case 'W':
+        return set_ridge();
       case 'D':
         now_.scale = value();
         return;
@@ -481,6 +487,35 @@ class Turtle {
     now_.position = Vec3(values[0], values[1], values.size() > 2 ? values[2] : 0);
   }
 
+  // Parameters are in single precision: a sixth or a third of the width is meant where rounding made it a little else.
+  static double nearest_limit(double swelling, double width) {
+    constexpr double kRounding = 1e-6;
+    for (const double limit : {width / 6, width / 3}) {
+      if (std::fabs(swelling - limit) <= kRounding * limit) return limit;
+    }
+    return swelling;
+  }
+
+  void set_ridge() {
+    if (!has_value()) {
+      now_.ridge = kNoRidge;
+      return;
+    }
+    const double width = value(),
+                 swelling = nearest_limit(modules_.parameters().size() > 1 ? value(1) : width / 4, width);
+    if (!(0 < width && width <= 0.5)) {
+      fail(fmt::format("the ridge's width is {:g} here; expected one above 0 and up to 0.5", width));
+    }
+    if (!(width / 6 <= swelling && swelling <= 0.5)) {
+      fail(fmt::format("the ridge's swelling is {:g} here; expected one from a sixth of its width, {:g}, to 0.5",
+                       swelling, width / 6));
+    }
+    const auto [known, is_new] =
+        ridges_.emplace(std::pair(width, swelling), static_cast<std::int32_t>(skeleton_.ridges.size()));
+    if (is_new) skeleton_.ridges.push_back({width, swelling});
+    now_.ridge = known->second;
+  }
+
   const Word& word_;
   const Grammar* const grammar_;
   const TurtleOptions& options_;
@@ -491,6 +526,7 @@ class Turtle {
   std::size_t next_cut_ = 0;
   bool segment_is_open_ = false;  // the last internode's tip has no width yet
   std::set<std::string> noted_;
+  std::map<std::pair<double, double>, std::int32_t> ridges_;  // by width and swelling
   Skeleton skeleton_;
 };
 

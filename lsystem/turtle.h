@@ -50,8 +50,10 @@ struct TurtleOptions {
 /// Where the word keeps its cuts, each branch that was shed with a segment in it is recorded, as it was when it was
 /// shed but where the plant now has its place.
 ///
+/// `@W(width, swelling)` sets the ridge of the segments that follow on the branch and on those that leave it.
+///
 /// Throws `InputError` on positions and widths that are not finite, widths that are zero or negative where a segment
-/// begins or negative where it ends, and brackets without their partner; and `LimitError`.
+/// begins or negative where it ends, ridges out of range, and brackets without their partner; and `LimitError`.
 Skeleton interpret(const Word& word, const Grammar* grammar = nullptr, const TurtleOptions& options = {});
 
 }  // namespace barkridge

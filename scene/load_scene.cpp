@@ -179,6 +179,31 @@ void complete_bark(const std::vector<Setting>& settings, const std::string& path
   }
 }
 
+// Where the shape of one of the ridge rules is stated.
+SourceLocation place_of_ridge(const std::vector<Setting>& settings, std::size_t rule, const std::string& path) {
+  for (const Setting& setting : settings) {
+    const bool is_shape = setting.key == "ridge[].swelling" || setting.key == "ridge[].width";
+    if (is_shape && setting.element.value_or(rule) == rule) return setting.value_place;
+  }
+  return {path, 0, 0, ""};
+}
+
+// Gives every ridge rule the shape that it leaves to the scene.
+void complete_ridge_rules(const std::vector<Setting>& settings, const std::string& path, Scene& scene) {
+  for (std::size_t i = 0; i < scene.ridges.size(); ++i) {
+    const SceneRidgeRule& stated = scene.ridges[i];
+    ContactShape contact = scene.tree.contact;
+    contact.width = stated.width.value_or(contact.width);
+    contact.swelling = stated.swelling.value_or(contact.width / 4);
+    try {
+      check(contact);
+    } catch (const InputError& error) {
+      throw InputError(place_of_ridge(settings, i, path), error.message());
+    }
+    scene.tree.ridge_rules.push_back({stated.orders, stated.angles_degrees, stated.radius_ratios, contact});
+  }
+}
+
 // Rules about several keys at once.
 void check_together(const std::vector<Setting>& settings, const std::string& path, Scene& scene) {
   ContactShape& contact = scene.tree.contact;
@@ -188,6 +213,7 @@ void check_together(const std::vector<Setting>& settings, const std::string& pat
   } catch (const InputError& error) {
     throw InputError(place_of(settings, {"junction.swelling", "junction.width"}, path), error.message());
   }
+  complete_ridge_rules(settings, path, scene);
   if (scene.camera.position && scene.camera.target && *scene.camera.position == *scene.camera.target) {
     throw InputError(place_of(settings, {"camera.target"}, path),
                      "camera.target: expected another point than camera.position");

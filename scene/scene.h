@@ -88,6 +88,15 @@ struct TextureSize {
   bool follows_radius = false;
 };
 
+/// A ridge rule as a scene states it: without a width it has the scene's, without a swelling a quarter of its width.
+struct SceneRidgeRule {
+  Span orders = RidgeRule{}.orders;
+  Span angles_degrees = RidgeRule{}.angles_degrees;
+  Span radius_ratios = RidgeRule{}.radius_ratios;
+  std::optional<double> width;
+  std::optional<double> swelling;
+};
+
 struct Scene {
   ModelSource model;
   DeriveOptions derivation;
@@ -100,6 +109,8 @@ struct Scene {
   std::vector<ScarRule> scars;
   TreeOptions tree;
   SurfaceOptions surface;
+  /// In the order of the file. `load_scene` completes them and puts them into `tree`, too.
+  std::vector<SceneRidgeRule> ridges;
   SceneCamera camera;
   SceneSun sun;
   Sky sky;

@@ -55,6 +55,11 @@ void add_skeleton(Sha256& hash, const Skeleton& skeleton) {
     append(bytes, internode.base_radius);
     append(bytes, internode.tip_radius);
     append(bytes, static_cast<std::uint64_t>(internode.parent));
+    if (internode.ridge != kNoRidge) {
+      const Ridge& ridge = skeleton.ridges[static_cast<std::size_t>(internode.ridge)];
+      append(bytes, ridge.width);
+      append(bytes, ridge.swelling);
+    }
     hash.add(bytes);
   }
   for (const CutEnd& end : skeleton.cut_ends) {
@@ -76,8 +81,8 @@ void add_skeleton(Sha256& hash, const Skeleton& skeleton) {
 
 bool is_seen(std::string_view key) {
   if (key == "bark.image") return false;  // what stands there is
-  for (const std::string_view section : {"surface.", "junction.", "bend.", "tip", "cut", "scar", "camera.", "sun.",
-                                         "sky.", "ground.", "material.", "bark.", "wood.", "texture."}) {
+  for (const std::string_view section : {"surface.", "junction.", "ridge", "bend.", "tip", "cut", "scar", "camera.",
+                                         "sun.", "sky.", "ground.", "material.", "bark.", "wood.", "texture."}) {
     if (key.starts_with(section)) return true;
   }
   return false;

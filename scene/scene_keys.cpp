@@ -410,6 +410,27 @@ void add_growth_keys(Keys& keys) {
       "How long the scars of branches that % removes take to heal. Left out, they leave none."));
 }
 
+void add_ridge_keys(Keys& keys) {
+  const auto ridges = [](auto& s) -> auto& { return s.ridges; };
+  const auto add = [&](SceneKey key) { keys.push_back(in_list(std::move(key), ridges)); };
+  keys.push_back(list("ridge", ridges, "Other ridges for some forks; the last rule for one counts."));
+  add(range(
+      "ridge[].order", [](auto& s) -> auto& { return s.ridges.front().orders; },
+      "Only forks that internodes of these orders carry; the trunk's is 0, and the ground's."));
+  add(range(
+      "ridge[].angle_degrees", [](auto& s) -> auto& { return s.ridges.front().angles_degrees; },
+      "Only forks with these angles between their two thickest branches."));
+  add(range(
+      "ridge[].radius_ratio", [](auto& s) -> auto& { return s.ridges.front().radius_ratios; },
+      "Only forks with these radii of the second thickest branch over that of the thickest."));
+  add(number(
+      "ridge[].width", {0, 0.5, true, false}, [](auto& s) -> auto& { return s.ridges.front().width; },
+      "The ridge's width. Left out, junction.width."));
+  add(number(
+      "ridge[].swelling", {0, 0.5, true, false}, [](auto& s) -> auto& { return s.ridges.front().swelling; },
+      "Its swelling. Left out, a quarter of its width."));
+}
+
 void add_surface_keys(Keys& keys) {
   keys.push_back(choice<SurfaceMethod>(
       "surface.method",
@@ -432,6 +453,13 @@ void add_surface_keys(Keys& keys) {
       "junction.joint", {{JointKind::kFaded, "faded"}, {JointKind::kPaper, "paper"}},
       [](auto& s) -> auto& { return s.tree.joint; },
       "How an internode hands over to the next: by fading fields, or by shortened skeletons."));
+  keys.push_back(choice<BlendingKind>(
+      "junction.blending", {{BlendingKind::kSubtrees, "subtrees"}, {BlendingKind::kConfined, "confined"}},
+      [](auto& s) -> auto& { return s.tree.blending; },
+      "What a junction joins: all that grows from it, or only the internodes that meet there."));
+  keys.push_back(number(
+      "junction.round_turn_degrees", from_to(0, 180), [](auto& s) -> auto& { return s.tree.round_turn_degrees; },
+      "Up to this turn faded joints round their corners; past it the axis keeps its radius around a sharp one."));
   keys.push_back(number(
       "junction.width", {0, 0.5, true, false}, [](auto& s) -> auto& { return s.tree.contact.width; },
       "Extent of the swelling beside a ridge, in field units."));
@@ -441,6 +469,7 @@ void add_surface_keys(Keys& keys) {
   keys.push_back(flag(
       "junction.allow_large_swelling", [](auto& s) -> auto& { return s.tree.contact.allow_large_swelling; },
       "Lets the swelling exceed a third of the width."));
+  add_ridge_keys(keys);
   keys.push_back(number(
       "mesh.cell_size", above(0), [](auto& s) -> auto& { return s.cell_size; },
       "Edge length of the sampling cells. Left out, half the thinnest branch's radius."));

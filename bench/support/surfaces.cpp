@@ -9,6 +9,9 @@ TreeOptions surface_options(const std::string& surface) {
   TreeOptions options;
   if (surface == "smooth") {
     options.junction = JunctionKind::kSmooth;
+  } else if (surface == "confined") {
+    options.junction = JunctionKind::kSmooth;
+    options.blending = BlendingKind::kConfined;
   } else if (surface == "bend") {
     options.bend_angle_degrees = kBendDegrees;
   } else if (surface != "ridge") {

@@ -11,7 +11,8 @@ namespace barkridge::bench {
 /// "smooth", "ridge", and "bend": ridge with bent internodes.
 inline const std::vector<std::string> kSurfaces{"smooth", "ridge", "bend"};
 
-/// Throws `std::invalid_argument` for other names.
+/// Of these, and of "confined": smooth, with blending confined to internodes that meet. Throws `std::invalid_argument`
+/// for other names.
 TreeOptions surface_options(const std::string& surface);
 
 }  // namespace barkridge::bench

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/error.h"
 #include "lsystem/turtle.h"
 #include "tests/lsystem/lsystem_text.h"
 
@@ -284,4 +285,23 @@ TEST_CASE("what has no effect yet is told once") {
   options.notify = [&](const std::string& message) { notes.push_back(message); };
   drawn("{.f.}{.f.}@GsF@Ge_(0.1)", options);
   CHECK(notes.size() == 3);
+}
+
+TEST_CASE("@W sets the ridge of the segments that follow, on branches too, and without numbers takes it back") {
+  const Skeleton skeleton = drawn("F@W(0.25,0.0625)[F]F[@W(0.5)F]F@WF");
+  REQUIRE(skeleton.internodes.size() == 6);
+  std::vector<std::int32_t> ridges;
+  for (const Internode& internode : skeleton.internodes) ridges.push_back(internode.ridge);
+  CHECK(ridges == std::vector<std::int32_t>{kNoRidge, 0, 0, 1, 0, kNoRidge});
+  CHECK(skeleton.ridges == std::vector<Ridge>{{0.25, 0.0625}, {0.5, 0.125}});
+}
+
+TEST_CASE("a ridge's swelling at a limit is not refused for its rounding, and one outside is") {
+  for (const char* text : {"@W(0.48,0.16)F", "@W(0.3,0.1)F", "@W(0.3,0.05)F", "@W(0.07,0.0116666667)F"}) {
+    const Ridge ridge = drawn(text).ridges.at(0);
+    CHECK((ridge.swelling == ridge.width / 3 || ridge.swelling == ridge.width / 6));
+  }
+  for (const char* text : {"@W(0.6)F", "@W(0)F", "@W(0.3,0.04)F", "@W(0.3,0.6)F"}) {
+    CHECK_THROWS_AS(drawn(text), InputError);
+  }
 }

@@ -316,6 +316,39 @@ TEST_CASE("numbers that are not finite are refused everywhere") {
   }
 }
 
+TEST_CASE("ridge rules keep their order and get what they leave to the scene") {
+  const std::string text = kModel + R"toml([junction]
+width = 0.4
+[[ridge]]
+order = [0, 1]
+swelling = 0.08
+[[ridge]]
+angle_degrees = [60, 180]
+radius_ratio = [0.5, 1]
+width = 0.2
+)toml";
+  const Scene scene = load_text(text);
+  REQUIRE(scene.tree.ridge_rules.size() == 2);
+  const RidgeRule& first = scene.tree.ridge_rules[0];
+  const RidgeRule& second = scene.tree.ridge_rules[1];
+  CHECK(first.contact == ContactShape{0.4, 0.08, false});
+  CHECK(first.orders.to == 1);
+  CHECK(second.contact == ContactShape{0.2, 0.05, false});
+  CHECK(second.fits({7, 90, 0.6}));
+  CHECK_FALSE(second.fits({7, 50, 0.6}));
+  CHECK_FALSE(second.fits({7, 90, 0.4}));
+  CHECK(load_text(text, {"ridge[].width=0.3"}).tree.ridge_rules[1].contact == ContactShape{0.3, 0.075, false});
+  CHECK(load_text(kModel, {"ridge[].width=0.3"}).tree.ridge_rules.size() == 1);
+}
+
+TEST_CASE("a mistake in a ridge rule is reported where it is written") {
+  const InputError error = error_of(kModel + "[[ridge]]\n[[ridge]]\nwidth = 0.3\nswelling = 0.2\n");
+  CHECK(error.where().line == 5);
+  CHECK_THAT(error_of(kModel + "[[ridge]]\norder = [2, 1]\n").what(), Contains("ridge[].order: expected a number of at least 0, or two"));
+  CHECK_THAT(error_of(kModel + "[[ridge]]\nangle = 3\n").what(), Contains("unknown key ridge[].angle"));
+  CHECK_THAT(error_of(kModel + "[ridge]\nwidth = 0.3\n").what(), Contains("ridge: expected an array of tables"));
+}
+
 TEST_CASE("a swelling outside its range is reported where it is written") {
   const InputError error = error_of(kModel + "[junction]\nswelling = 0.3\n");
   CHECK(error.where().line == 3);

@@ -52,7 +52,8 @@ TEST_CASE("everything that is seen changes the hash") {
   const std::string path = folder.write("a.skel", kTable);
   std::set<std::string> hashes = {hash_of(path)};
   for (const char* definition :
-       {"junction.kind=smooth", "junction.joint=paper", "junction.width=0.3", "bend.angle_degrees=5", "camera.zoom=2",
+       {"junction.kind=smooth", "junction.joint=paper", "junction.width=0.3", "junction.blending=confined",
+        "ridge[].width=0.3", "ridge=[{},{width=0.3}]", "bend.angle_degrees=5", "camera.zoom=2",
         "camera.position=[1,2,3]", "sun.azimuth_degrees=1", "sky.intensity=2", "ground.enabled=false",
         "material.roughness=0.5", "bark.kind=poplar", "bark.scale=0.1"}) {
     CAPTURE(definition);
