@@ -41,8 +41,8 @@ class TreeBuilder {
 
   PlantTree run() {
     // Children before parents: the summands of a subtree move up the axis and become a node where branches touch. A
-    // long internode ends them where blending is confined: what meets at its tip is a group of its own, unless something
-    // is carved out of the internode, of which there is but one copy then.
+    // long internode ends them where blending is confined: what meets at its tip is a group of its own, unless
+    // something is carved out of the internode, of which there is but one copy then.
     auto carving = carvings_.begin();
     std::vector<NodeId> apart;
     std::vector<bool> is_split(plant_.size());
@@ -119,7 +119,8 @@ class TreeBuilder {
     double at_base = a.base_radius;
     if (a.parent != kNoInternode) {
       const auto parent = static_cast<std::size_t>(a.parent);
-      at_base = std::max({at_base, plant_.internode(parent).tip_radius, plant_.neighbourhood_of(parent).thickest_child});
+      at_base =
+          std::max({at_base, plant_.internode(parent).tip_radius, plant_.neighbourhood_of(parent).thickest_child});
     }
     return glm::distance(a.base, a.tip) > kJunctionReach * (at_base + at_tip);
   }
@@ -170,8 +171,8 @@ class TreeBuilder {
     std::vector<NodeId> nodes;
     nodes.reserve(standing.size());
     for (const InternodeId branch : standing) nodes.push_back(as_node(subtrees_[static_cast<std::size_t>(branch)]));
-    const ContactShape shape = contact_shape_of(plant_.skeleton(), carrier, standing, plant_.options().ridge_rules,
-                                                plant_.options().contact);
+    const ContactShape shape =
+        contact_shape_of(plant_.skeleton(), carrier, standing, plant_.options().ridge_rules, plant_.options().contact);
     return single(tree_.add(Contact{shape}, std::move(nodes)));
   }
 

@@ -75,8 +75,8 @@ struct TreeOptions {
 /// children of the ground; plants rooted apart are united and do not blend. Cut ends get their faces and scars their
 /// hollows. [docs/field.md, "Missing organs"] With confined blending, F is the largest of such fields over groups of
 /// internodes: those that meet at a junction, or at several with only short internodes between them. A long internode
-/// stands in both of its ends' groups. Cost: linear in internodes, whatever the depth, times the number of rules. Throws
-/// `InputError` for numbers outside their ranges and for cut ends and scars of internodes that have children.
+/// stands in both of its ends' groups. Cost: linear in internodes, whatever the depth, times the number of rules.
+/// Throws `InputError` for numbers outside their ranges and for cut ends and scars of internodes that have children.
 BlobTree tree_from_skeleton(const Skeleton& skeleton, const TreeOptions& options = {});
 
 /// The tree, which of its nodes is each internode's primitive, and the skeleton that these internodes are of: with

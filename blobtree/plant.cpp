@@ -146,7 +146,8 @@ NodeId Plant::add_primitive(BlobTree& tree, std::size_t i) const {
     }
     return add_bent(tree, primitive, a, arc(i));
   };
-  return options_.joint == JointKind::kPaper ? add(paper_cone(a, near, options_.junction)) : add(faded_cone(a, near, plans_[i]));
+  return options_.joint == JointKind::kPaper ? add(paper_cone(a, near, options_.junction))
+                                             : add(faded_cone(a, near, plans_[i]));
 }
 
 double length_past_cut(const Internode& internode, const Vec3& axis, const CutEnd& end) {

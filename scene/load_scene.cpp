@@ -181,9 +181,10 @@ void complete_bark(const std::vector<Setting>& settings, const std::string& path
 
 // Where the shape of one of the ridge rules is stated.
 SourceLocation place_of_ridge(const std::vector<Setting>& settings, std::size_t rule, const std::string& path) {
-  for (const Setting& setting : settings) {
-    const bool is_shape = setting.key == "ridge[].swelling" || setting.key == "ridge[].width";
-    if (is_shape && setting.element.value_or(rule) == rule) return setting.value_place;
+  for (const char* const key : {"ridge[].swelling", "ridge[].width"}) {
+    for (const Setting& setting : settings) {
+      if (setting.key == key && setting.element.value_or(rule) == rule) return setting.value_place;
+    }
   }
   return {path, 0, 0, ""};
 }

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "base/version.h"
-#include "commit.h"
+#include "study/commit.h"
 
 namespace barkridge {
 

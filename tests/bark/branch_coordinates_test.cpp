@@ -76,10 +76,10 @@ TEST_CASE("directions around a branch turn with its axis by the least rotation")
 }
 
 TEST_CASE("the frames of bent internodes meet where their arcs do") {
-  const Skeleton skeleton = random_skeleton(11, 80);
   TreeOptions options;
   options.bend_angle_degrees = 35;
-  const PlantTree plant = plant_from_skeleton(skeleton, options);
+  const PlantTree plant = plant_from_skeleton(random_skeleton(11, 80), options);
+  const Skeleton& skeleton = plant.skeleton;
   const BranchCoordinates coordinates = coordinates_of(skeleton, plant);
   std::vector<const Bend*> bends(plant.tree.nodes.size());
   for (const Node& node : plant.tree.nodes) {
@@ -116,7 +116,7 @@ TEST_CASE("the frames of bent internodes meet where their arcs do") {
     CHECK(at(static_cast<InternodeId>(i), p).around == Approx(at(internode.parent, p).around).margin(1e-3));
     ++compared;
   }
-  CHECK(compared > 50);
+  CHECK(compared > 40);  // where chains go on, tangents are one
 }
 
 TEST_CASE("an image closes around a branch and keeps its size along it") {

@@ -305,9 +305,9 @@ TEST_CASE("an internode's primitive is the one that stands on its axis") {
   for (const double bend : {0.0, 30.0}) {
     TreeOptions options;
     options.bend_angle_degrees = bend;
-    const Skeleton skeleton = random_skeleton(7, 60);
-    const PlantTree plant = plant_from_skeleton(skeleton, options);
-    CHECK(plant.tree == tree_from_skeleton(skeleton, options));
+    const PlantTree plant = plant_from_skeleton(random_skeleton(7, 60), options);
+    const Skeleton& skeleton = plant.skeleton;
+    CHECK(plant.tree == tree_from_skeleton(random_skeleton(7, 60), options));
     REQUIRE(plant.primitives.size() == skeleton.internodes.size());
     for (std::size_t i = 0; i < plant.primitives.size(); ++i) {
       const FadedCone& cone = std::get<FadedCone>(plant.tree.nodes[plant.primitives[i]].what);

@@ -344,9 +344,10 @@ width = 0.2
 TEST_CASE("a mistake in a ridge rule is reported where it is written") {
   const InputError error = error_of(kModel + "[[ridge]]\n[[ridge]]\nwidth = 0.3\nswelling = 0.2\n");
   CHECK(error.where().line == 5);
-  CHECK_THAT(error_of(kModel + "[[ridge]]\norder = [2, 1]\n").what(), Contains("ridge[].order: expected a number of at least 0, or two"));
+  CHECK_THAT(error_of(kModel + "[[ridge]]\norder = [2, 1]\n").what(),
+             Contains("ridge[].order: expected a number of at least 0, or two"));
   CHECK_THAT(error_of(kModel + "[[ridge]]\nangle = 3\n").what(), Contains("unknown key ridge[].angle"));
-  CHECK_THAT(error_of(kModel + "[ridge]\nwidth = 0.3\n").what(), Contains("ridge: expected an array of tables"));
+  CHECK_THAT(error_of(kModel + "[ridge]\nwidth = 0.3\n").what(), Contains("unknown key ridge.width; did you mean ridge[].width?"));
 }
 
 TEST_CASE("a swelling outside its range is reported where it is written") {
