@@ -103,7 +103,7 @@ void add_output_options(CLI::App& verb, Written& written, const char* output_tex
 
 void add_surface_options(CLI::App& verb, Written& written) {
   add(verb, "--surface", written.surface, "METHOD",
-      "implicit, templates, hull or cylinders: by the model's field, or by Loop subdivision of a control mesh "
+      "implicit, templates, hull, cylinders or leaf: by the model's field, or by Loop subdivision of a control mesh "
       "(surface.method)");
   add(verb, "--level", written.level, "N",
       "Times that each triangle of a control mesh is split in four (surface.level)");

@@ -1,17 +1,16 @@
 #include "cli/work_statistics.h"
 
-#include <sys/resource.h>
-
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "base/output_file.h"
+#include "study/machine.h"
 
 namespace barkridge::cli {
 
 std::size_t peak_resident_bytes() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+  // Not getrusage's: that begins with what the program which started this one held.
+  return 1024 * std::strtoull(value_in("/proc/self/status", "VmHWM").c_str(), nullptr, 10);
 }
 
 void WorkStatistics::write(const std::string& path) const {

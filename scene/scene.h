@@ -39,6 +39,7 @@ enum class SurfaceMethod {
   kTemplates,  ///< Loop subdivision of a control mesh of junction templates, for planar joints
   kHull,       ///< Loop subdivision of a control mesh of convex-hull joints, for all
   kCylinders,  ///< Loop subdivision of separate generalized cylinders
+  kLeaf,       ///< Loop subdivision of an open sheet along planar axes, whose half widths the radii are
 };
 struct SurfaceOptions {
   SurfaceMethod method = SurfaceMethod::kImplicit;

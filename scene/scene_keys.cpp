@@ -437,7 +437,8 @@ void add_surface_keys(Keys& keys) {
       {{SurfaceMethod::kImplicit, "implicit"},
        {SurfaceMethod::kTemplates, "templates"},
        {SurfaceMethod::kHull, "hull"},
-       {SurfaceMethod::kCylinders, "cylinders"}},
+       {SurfaceMethod::kCylinders, "cylinders"},
+       {SurfaceMethod::kLeaf, "leaf"}},
       [](auto& s) -> auto& { return s.surface.method; },
       "How the model gets its surface: by the field of its BlobTree, or by Loop subdivision of a control mesh."));
   keys.push_back(integer(

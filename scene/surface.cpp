@@ -4,6 +4,7 @@
 #include "polygonize/polygonize.h"
 #include "subdivision/cylinder_mesh.h"
 #include "subdivision/hull.h"
+#include "subdivision/leaf_mesh.h"
 #include "subdivision/limit.h"
 #include "subdivision/loop.h"
 #include "subdivision/template_mesh.h"
@@ -47,6 +48,8 @@ ControlMesh make_control_mesh(const Scene& scene, const Skeleton& skeleton) {
       return hull_mesh(thickened(skeleton, kSquareScale));
     case SurfaceMethod::kCylinders:
       return cylinder_mesh(skeleton, stem);
+    case SurfaceMethod::kLeaf:
+      return leaf_mesh(skeleton);
     case SurfaceMethod::kImplicit:
       break;
   }

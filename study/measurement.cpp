@@ -37,7 +37,8 @@ std::vector<Headline> headlines(std::span<const Measurement> measurements) {
     auto place = std::find_if(found.begin(), found.end(), [&](const Headline& h) { return h.model == m.model; });
     if (place == found.end()) place = found.insert(found.end(), Headline{m.model});
     if (!m.error || m.error->root_mean_square > kEqualQualityPixels) continue;
-    keep_cheaper(m.method == "implicit" ? place->implicit : place->subdivision, m);
+    if (m.method == kBaselineMethod) continue;
+    keep_cheaper(m.method == kImplicitMethod ? place->implicit : place->subdivision, m);
   }
   return found;
 }

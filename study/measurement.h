@@ -39,8 +39,12 @@ struct Measurement {
 /// would compare single points: a crease that no lattice resolves keeps it near a cell at any resolution.
 inline constexpr double kEqualQualityPixels = 0.5;
 
-/// Of a model, the cheapest setting of the implicit method and of all others that are within `kEqualQualityPixels`, by
-/// building and surface; null where there is none.
+inline constexpr const char* kImplicitMethod = "implicit";
+/// Separate cylinders make no joints: they show what these cost, and are no rival.
+inline constexpr const char* kBaselineMethod = "cylinders";
+
+/// Of a model, the cheapest setting of the implicit method and of all others but the baseline that are within
+/// `kEqualQualityPixels`, by building and surface; null where there is none.
 struct Headline {
   std::string model;
   const Measurement* implicit = nullptr;

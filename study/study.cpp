@@ -17,6 +17,7 @@
 #include "study/patch.h"
 #include "study/surface_error.h"
 #include "subdivision/limit.h"
+#include "subdivision/loop.h"
 
 namespace barkridge {
 
@@ -28,8 +29,8 @@ constexpr int kMoreLevels = 4;
 constexpr double kCellFactors[] = {2, 1, 0.5, 0.25};
 constexpr int kFinestLevel = 3;
 constexpr const char* kSubdivided[] = {"templates", "hull", "cylinders"};
-// Windows are as wide as so many of the finest cells, so that the fine surface in one has some 100 000 triangles.
-constexpr double kWindowCells = 24;
+// Windows are as wide as so many of the finest cells, so that the fine surface in one has some 10 000 triangles.
+constexpr double kWindowCells = 8;
 
 std::vector<StudySetting> all_settings() {
   std::vector<StudySetting> settings;
@@ -133,7 +134,7 @@ FineSurface fine_surface(const StudiedModel& model, const Candidate& candidate) 
     };
   }
   return [control = candidate.control](const Box& box) {
-    return limit_surface(patch_for(*control, box), kFinestLevel + kMoreLevels).mesh;
+    return limit_surface(patch_for(subdivide(patch_for(*control, box), kFinestLevel), box), kMoreLevels).mesh;
   };
 }
 
@@ -191,17 +192,27 @@ void measure_scene(const StudyScene& named, const MeshRunner& run, const StudyOp
   }
   const double finest = kCellFactors[std::size(kCellFactors) - 1] * model.thinnest;
   const std::vector<Box> windows = error_windows(model.model.skeleton, kWindowCells * finest, options.windows);
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const Candidate& candidate = candidates[i];
-    const Mesh mesh = mesh_of(model, candidate);
-    const DistanceSummary error = surface_error(mesh, windows, 4 * model.thinnest, fine_surface(model, candidate));
-    Measurement m = measurement_of(named, candidate);
-    if (error.count > 0) m.error = PixelError{error.largest / model.pixel, error.root_mean_square() / model.pixel};
-    findings.measurements.push_back(std::move(m));
-    if (is_shown(candidate.setting)) {
-      findings.pictures.push_back(picture_of(named, model, candidate, mesh, options));
+  // The settings of one method stand together, and have one fine surface.
+  for (auto first = candidates.begin(); first != candidates.end();) {
+    const auto last = std::find_if(first, candidates.end(),
+                                   [&](const Candidate& c) { return c.setting.method != first->setting.method; });
+    std::vector<Mesh> meshes;
+    for (auto candidate = first; candidate != last; ++candidate) meshes.push_back(mesh_of(model, *candidate));
+    const std::vector<DistanceSummary> errors =
+        surface_errors(meshes, windows, 4 * model.thinnest, fine_surface(model, *first));
+    for (auto candidate = first; candidate != last; ++candidate) {
+      const auto i = static_cast<std::size_t>(candidate - first);
+      Measurement m = measurement_of(named, *candidate);
+      if (errors[i].count > 0) {
+        m.error = PixelError{errors[i].largest / model.pixel, errors[i].root_mean_square() / model.pixel};
+      }
+      findings.measurements.push_back(std::move(m));
+      if (is_shown(candidate->setting)) {
+        findings.pictures.push_back(picture_of(named, model, *candidate, meshes[i], options));
+      }
     }
-    done(0.5 + 0.5 * static_cast<double>(i + 1) / static_cast<double>(candidates.size()));
+    first = last;
+    done(0.5 + 0.5 * static_cast<double>(first - candidates.begin()) / static_cast<double>(candidates.size()));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <numbers>
+#include <optional>
 
 #include "base/random.h"
 
@@ -81,18 +82,25 @@ std::vector<Box> error_windows(const Skeleton& skeleton, double side, int count)
   return windows;
 }
 
-DistanceSummary surface_error(const Mesh& mesh, const std::vector<Box>& windows, double reach,
-                              const FineSurface& fine) {
-  DistanceSummary error;
-  if (mesh.triangles.empty()) return error;
-  const NearestPoint to_mesh(mesh);
+std::vector<DistanceSummary> surface_errors(std::span<const Mesh> meshes, const std::vector<Box>& windows, double reach,
+                                            const FineSurface& fine) {
+  std::vector<DistanceSummary> errors(meshes.size());
+  std::vector<std::optional<NearestPoint>> to_meshes(meshes.size());
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    if (!meshes[i].triangles.empty()) to_meshes[i].emplace(meshes[i]);
+  }
   for (const Box& window : windows) {
     const Mesh around = part_within(fine(grown(window, reach)), grown(window, reach));
-    error = unite(error, distances(points_within(around, window), to_mesh));
     if (around.triangles.empty()) continue;
-    error = unite(error, distances(points_within(mesh, window), NearestPoint(around)));
+    const NearestPoint to_fine(around);
+    const std::vector<Vec3> points = points_within(around, window);
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+      if (!to_meshes[i]) continue;
+      errors[i] = unite(errors[i], distances(points, *to_meshes[i]));
+      errors[i] = unite(errors[i], distances(points_within(meshes[i], window), to_fine));
+    }
   }
-  return error;
+  return errors;
 }
 
 }  // namespace barkridge

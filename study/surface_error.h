@@ -2,6 +2,7 @@
 // The error of a triangulated surface against the surface that it stands for, on a sample of it.
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "lsystem/skeleton.h"
@@ -17,8 +18,10 @@ std::vector<Box> error_windows(const Skeleton& skeleton, double side, int count)
 /// Makes a much finer triangulation of the surface for use inside of a box; outside of it anything may follow.
 using FineSurface = std::function<Mesh(const Box&)>;
 
-/// The two-sided distance between `mesh` and the fine surface within the windows: from the points of each that lie in a
-/// window to the other. `reach` is how far around a window nearest points are sought for.
-DistanceSummary surface_error(const Mesh& mesh, const std::vector<Box>& windows, double reach, const FineSurface& fine);
+/// For each mesh the two-sided distance to the fine surface within the windows: from the points of each that lie in a
+/// window to the other. `reach` is how far around a window nearest points are sought for. The fine surface is made once
+/// for every window.
+std::vector<DistanceSummary> surface_errors(std::span<const Mesh> meshes, const std::vector<Box>& windows, double reach,
+                                            const FineSurface& fine);
 
 }  // namespace barkridge

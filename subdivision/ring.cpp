@@ -27,7 +27,7 @@ struct Kind {
 
 // The kind after `steps` steps, which may be 0 or 1.
 template <class Value>
-Kind kind_of(const Ring<Value>& ring, int steps) {
+Kind kind_of(const VertexRing<Value>& ring, int steps) {
   const auto sharp = [&](double sharpness) { return steps == 0 ? sharpness > 0 : sharpness > 1; };
   Kind kind;
   for (std::size_t i = 0; i < ring.neighbours.size(); ++i) {
@@ -51,7 +51,7 @@ Value sum(const std::vector<Value>& values) {
 }
 
 template <class Value>
-Value by_rule(const Ring<Value>& ring, const Kind& kind) {
+Value by_rule(const VertexRing<Value>& ring, const Kind& kind) {
   if (kind.rule == Rule::corner) return ring.center;
   if (kind.rule == Rule::crease) {
     return 0.75 * ring.center + 0.125 * (ring.neighbours[kind.crease[0]] + ring.neighbours[kind.crease[1]]);
@@ -63,7 +63,7 @@ Value by_rule(const Ring<Value>& ring, const Kind& kind) {
 
 // The mean of all sharpnesses that run out in this step, at most 1.
 template <class Value>
-double share_of_sharper_rule(const Ring<Value>& ring) {
+double share_of_sharper_rule(const VertexRing<Value>& ring) {
   double total = 0;
   int count = 0;
   const auto add = [&](double sharpness) {
@@ -77,19 +77,19 @@ double share_of_sharper_rule(const Ring<Value>& ring) {
 }
 
 template <class Value>
-bool is_semi_sharp(const Ring<Value>& ring) {
+bool is_semi_sharp(const VertexRing<Value>& ring) {
   const auto finite = [](double sharpness) { return sharpness > 0 && std::isfinite(sharpness); };
   return finite(ring.center_sharpness) || std::any_of(ring.sharpness.begin(), ring.sharpness.end(), finite);
 }
 
 template <class Value>
-Ring<Value> after_sharpness(Ring<Value> ring) {
+VertexRing<Value> after_sharpness(VertexRing<Value> ring) {
   while (is_semi_sharp(ring)) ring = refined(std::move(ring));
   return ring;
 }
 
 // The sum of the ring's triangles' normals, by area.
-glm::dvec3 mean_normal(const Ring<glm::dvec3>& ring) {
+glm::dvec3 mean_normal(const VertexRing<glm::dvec3>& ring) {
   const std::size_t n = ring.neighbours.size();
   glm::dvec3 total(0);
   for (std::size_t i = 0; i + (ring.closed ? 0 : 1) < n; ++i) {
@@ -111,7 +111,7 @@ glm::dvec2 turn_to_next(std::size_t valence) {
 }
 
 // From the left eigenvectors of the subdominant eigenvalue of a smooth ring, cosines and sines [HDD94].
-glm::dvec3 smooth_normal(const Ring<glm::dvec3>& ring) {
+glm::dvec3 smooth_normal(const VertexRing<glm::dvec3>& ring) {
   const glm::dvec2 turn = turn_to_next(ring.neighbours.size());
   glm::dvec2 weight(1, 0);
   glm::dvec3 u(0), v(0);
@@ -129,7 +129,7 @@ glm::dvec3 smooth_normal(const Ring<glm::dvec3>& ring) {
 // eigenvector is `sin(i pi / k)` at the neighbours between; the entries at the crease and at the vertex follow from the
 // columns of the ring's matrix. (For three triangles this is the well-known 2, 2; -1, -1; -2.) One triangle bends by
 // the crease alone.
-glm::dvec3 side_normal(const Ring<glm::dvec3>& ring, std::size_t first, std::size_t count) {
+glm::dvec3 side_normal(const VertexRing<glm::dvec3>& ring, std::size_t first, std::size_t count) {
   // Weights' sums are 0, so sides may stand for neighbours, and 0 for the vertex.
   const auto side = [&](std::size_t i) { return ring.neighbours[(first + i) % ring.neighbours.size()] - ring.center; };
   const glm::dvec3 along = side(0) - side(count);
@@ -140,7 +140,7 @@ glm::dvec3 side_normal(const Ring<glm::dvec3>& ring, std::size_t first, std::siz
   return glm::cross(along, across);
 }
 
-glm::dvec3 crease_normal(const Ring<glm::dvec3>& ring, const Kind& kind) {
+glm::dvec3 crease_normal(const VertexRing<glm::dvec3>& ring, const Kind& kind) {
   const auto [first, last] = kind.crease;
   glm::dvec3 total = unit_or_zero(side_normal(ring, first, last - first));
   if (ring.closed) total += unit_or_zero(side_normal(ring, last, first + ring.neighbours.size() - last));
@@ -148,13 +148,13 @@ glm::dvec3 crease_normal(const Ring<glm::dvec3>& ring, const Kind& kind) {
 }
 
 template <class Value>
-Ring<Value> refined_often(Ring<Value> ring, int steps) {
+VertexRing<Value> refined_often(VertexRing<Value> ring, int steps) {
   for (int i = 0; i < steps; ++i) ring = refined(std::move(ring));
   return ring;
 }
 
 // Of a ring that is not semi-sharp; 0 at corners and where the surface has none.
-glm::dvec3 sharp_limit_normal(const Ring<glm::dvec3>& ring) {
+glm::dvec3 sharp_limit_normal(const VertexRing<glm::dvec3>& ring) {
   const Kind kind = kind_of(ring, 0);
   if (kind.rule == Rule::corner) return glm::dvec3(0);
   if (kind.rule == Rule::crease) return crease_normal(ring, kind);
@@ -172,7 +172,7 @@ double neighbour_weight(std::size_t valence) {
 }
 
 template <class Value>
-Value refined_center(const Ring<Value>& ring) {
+Value refined_center(const VertexRing<Value>& ring) {
   const Kind before = kind_of(ring, 0), after = kind_of(ring, 1);
   const Value sharper = by_rule(ring, before);
   if (before.rule == Rule::smooth || before.rule == after.rule) return sharper;
@@ -181,7 +181,7 @@ Value refined_center(const Ring<Value>& ring) {
 }
 
 template <class Value>
-Ring<Value> refined(Ring<Value> ring) {
+VertexRing<Value> refined(VertexRing<Value> ring) {
   const std::size_t n = ring.neighbours.size();
   const std::vector<Value> old = ring.neighbours;
   const Value center = refined_center(ring);
@@ -202,7 +202,7 @@ Ring<Value> refined(Ring<Value> ring) {
 }
 
 template <class Value>
-Value limit_position(const Ring<Value>& ring) {
+Value limit_position(const VertexRing<Value>& ring) {
   if (is_semi_sharp(ring)) return limit_position(after_sharpness(ring));
   const Kind kind = kind_of(ring, 0);
   if (kind.rule == Rule::corner) return ring.center;
@@ -215,7 +215,7 @@ Value limit_position(const Ring<Value>& ring) {
   return (1 - valence * weight) * ring.center + weight * sum(ring.neighbours);
 }
 
-glm::dvec3 limit_normal(const Ring<glm::dvec3>& ring) {
+glm::dvec3 limit_normal(const VertexRing<glm::dvec3>& ring) {
   const glm::dvec3 normal =
       unit_or_zero(is_semi_sharp(ring) ? sharp_limit_normal(after_sharpness(ring)) : sharp_limit_normal(ring));
   if (normal != glm::dvec3(0)) return normal;
@@ -223,11 +223,11 @@ glm::dvec3 limit_normal(const Ring<glm::dvec3>& ring) {
   return mean != glm::dvec3(0) ? mean : glm::dvec3(0, 1, 0);
 }
 
-template glm::dvec2 refined_center(const Ring<glm::dvec2>&);
-template glm::dvec3 refined_center(const Ring<glm::dvec3>&);
-template Ring<glm::dvec2> refined(Ring<glm::dvec2>);
-template Ring<glm::dvec3> refined(Ring<glm::dvec3>);
-template glm::dvec2 limit_position(const Ring<glm::dvec2>&);
-template glm::dvec3 limit_position(const Ring<glm::dvec3>&);
+template glm::dvec2 refined_center(const VertexRing<glm::dvec2>&);
+template glm::dvec3 refined_center(const VertexRing<glm::dvec3>&);
+template VertexRing<glm::dvec2> refined(VertexRing<glm::dvec2>);
+template VertexRing<glm::dvec3> refined(VertexRing<glm::dvec3>);
+template glm::dvec2 limit_position(const VertexRing<glm::dvec2>&);
+template glm::dvec3 limit_position(const VertexRing<glm::dvec3>&);
 
 }  // namespace barkridge

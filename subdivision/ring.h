@@ -14,7 +14,7 @@ namespace barkridge {
 
 /// `Value` is `glm::dvec3` for positions, `glm::dvec2` for texture coordinates.
 template <class Value>
-struct Ring {
+struct VertexRing {
   Value center{0};
   std::vector<Value> neighbours;  ///< against the clock; of a vertex on a boundary from one boundary edge to the other
   std::vector<double> sharpness;  ///< of the edges to them, >= 0; infinite on a boundary
@@ -36,21 +36,21 @@ double neighbour_weight(std::size_t valence);
 /// `neighbour_weight`s [HDD94]. Where sharpness runs out in this step, the rules before and after are blended by the
 /// mean of what runs out [DKT98].
 template <class Value>
-Value refined_center(const Ring<Value>& ring);
+Value refined_center(const VertexRing<Value>& ring);
 
 /// The whole ring after a step; every sharpness is less by 1.
 template <class Value>
-Ring<Value> refined(Ring<Value> ring);
+VertexRing<Value> refined(VertexRing<Value> ring);
 
 /// Where the vertex goes as steps are repeated for ever. Semi-sharp rings are first refined until no finite sharpness
 /// is left, and darts, for which there is no closed mask, until they have converged: exact to 1e-9 of the ring's size
 /// in both cases. Finite sharpnesses above 32 count as infinite.
 template <class Value>
-Value limit_position(const Ring<Value>& ring);
+Value limit_position(const VertexRing<Value>& ring);
 
 /// The surface's unit normal at the limit of the vertex. At creases it is the mean of both sides' normals, at corners
 /// that of the triangles', weighted by area; where that vanishes too, (0, 1, 0). On a boundary or beside a crease where
 /// seven or more triangles meet the surface has no tangent plane; the normal is that of the tangents along and across.
-glm::dvec3 limit_normal(const Ring<glm::dvec3>& ring);
+glm::dvec3 limit_normal(const VertexRing<glm::dvec3>& ring);
 
 }  // namespace barkridge

@@ -16,7 +16,7 @@ template <class Value>
 using Double = glm::vec<Value::length(), double>;
 
 template <class Value>
-void gather(const Sheet<Value>& sheet, std::uint32_t v, Ring<Double<Value>>& ring) {
+void gather(const Sheet<Value>& sheet, std::uint32_t v, VertexRing<Double<Value>>& ring) {
   ring.clear();
   ring.center = Double<Value>(sheet.values[v]);
   ring.center_sharpness = sheet.sharpness_of_vertex(v);
@@ -29,8 +29,8 @@ void gather(const Sheet<Value>& sheet, std::uint32_t v, Ring<Double<Value>>& rin
 }
 
 template <class Value>
-Ring<Double<Value>>& scratch_ring() {
-  thread_local Ring<Double<Value>> ring;
+VertexRing<Double<Value>>& scratch_ring() {
+  thread_local VertexRing<Double<Value>> ring;
   return ring;
 }
 
@@ -60,7 +60,7 @@ Value vertex_point(const Sheet<Value>& sheet, std::uint32_t v) {
     const float weight = common_neighbour_weight(valence);
     return (1 - static_cast<float>(valence) * weight) * sheet.values[v] + weight * sum;
   }
-  Ring<Double<Value>>& ring = scratch_ring<Value>();
+  VertexRing<Double<Value>>& ring = scratch_ring<Value>();
   gather(sheet, v, ring);
   return Value(refined_center(ring));
 }
@@ -109,7 +109,7 @@ Sheet<Value> refined(const Sheet<Value>& sheet, Refine what) {
 }
 
 LimitPoint limit_point(const Sheet<glm::vec3>& surface, std::uint32_t vertex) {
-  Ring<glm::dvec3>& ring = scratch_ring<glm::vec3>();
+  VertexRing<glm::dvec3>& ring = scratch_ring<glm::vec3>();
   gather(surface, vertex, ring);
   LimitPoint point;
   point.position = surface.values[vertex];
@@ -118,7 +118,7 @@ LimitPoint limit_point(const Sheet<glm::vec3>& surface, std::uint32_t vertex) {
 }
 
 glm::vec2 limit_texture(const Sheet<glm::vec2>& charts, std::uint32_t vertex) {
-  Ring<glm::dvec2>& ring = scratch_ring<glm::vec2>();
+  VertexRing<glm::dvec2>& ring = scratch_ring<glm::vec2>();
   gather(charts, vertex, ring);
   return ring.closed ? glm::vec2(limit_position(ring)) : charts.values[vertex];
 }
