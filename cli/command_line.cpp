@@ -63,7 +63,7 @@ struct Written {
   std::vector<std::string> scenes;
   std::string folder;
   std::size_t most_internodes = StudyArguments{}.most_internodes;
-  int threads = 0, turns = StudyArguments{}.turns;
+  int threads = 0, turns = StudyArguments{}.turns, places = StudyArguments{}.places;
   bool quiet = false, json = false, attributes = false, layers = false;
 };
 
@@ -176,6 +176,8 @@ void add_verbs(CLI::App& app, Written& written) {
       "Scenes whose models have skeletons; by default the study's own models, which it writes into the folder");
   add(study, "-o,--output", written.folder, "FOLDER", "The folder to write to; it is made if need be")->required();
   add(study, "--largest", written.most_internodes, "N", "Most internodes of its own models; by default 200000");
+  add(study, "--places", written.places, "N", "Places on each model where errors are measured; by default 24")
+      ->check(CLI::Range(1, 100000).description(""));
   add(study, "--turns", written.turns, "N", "Times that everything is measured; by default 3")
       ->check(CLI::Range(1, 1000).description(""));
   add(study, "-t,--threads", written.threads, "N", "Threads of each run; 0, the default, means all")
@@ -268,8 +270,8 @@ Verb interpret_verb(const std::string& name, const Written& written) {
     return arguments;
   }
   if (name == "study") {
-    return StudyArguments{written.scenes, written.folder,  written.most_internodes,
-                          written.turns,  written.threads, written.quiet};
+    return StudyArguments{written.scenes,  written.folder, written.most_internodes, written.turns, written.places,
+                          written.threads, written.quiet};
   }
   InfoArguments arguments;
   interpret_scene_options(written, arguments);

@@ -113,6 +113,7 @@ void run(const StudyArguments& arguments) {
                                              : given_scenes(arguments.scenes);
   StudyOptions options;
   options.turns = arguments.turns;
+  options.windows = arguments.places;
   options.picture_folder = (folder / "pictures").string();
   ProgressBar bar(arguments.quiet);
   options.progress = bar.stage("studying");

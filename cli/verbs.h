@@ -45,6 +45,7 @@ struct StudyArguments {
   std::string folder;
   std::size_t most_internodes = 200'000;
   int turns = 3;
+  int places = 24;  ///< on each model where errors are measured
   int threads = 0;  ///< of each run
   bool quiet = false;
 };

@@ -27,6 +27,7 @@ const std::vector<Exclusion>& exclusions() {
   static const std::vector<Exclusion> table = {
       {{"model.lsystem", "model.lsystem_text", "model.string", "model.skeleton", "model.lst", "model.tree"}, {}},
       {{"sun.direction"}, {"sun.azimuth_degrees", "sun.elevation_degrees"}},
+      {{"surface.max_angle_degrees"}, {"surface.limit", "surface.noise"}},
       {{"camera.position"}, {"camera.azimuth_degrees", "camera.elevation_degrees", "camera.zoom"}},
   };
   return table;

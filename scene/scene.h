@@ -14,6 +14,8 @@
 #include "lsystem/prune.h"
 #include "lsystem/turtle.h"
 #include "raytrace/render.h"
+#include "subdivision/fractal_noise.h"
+#include "subdivision/stem_options.h"
 
 namespace barkridge {
 
@@ -43,10 +45,17 @@ enum class SurfaceMethod {
 };
 struct SurfaceOptions {
   SurfaceMethod method = SurfaceMethod::kImplicit;
-  /// Times that each triangle of a control mesh is split in four.
+  /// Times that each triangle of a control mesh is split in four; with a tolerance, at the most.
   int level = 2;
-  /// Whether the refined vertices are moved to the limit surface.
+  /// The greatest angle between triangles, where they are not all split alike.
+  std::optional<double> max_angle_degrees;
+  /// Whether the refined vertices are moved to the limit surface. Adaptive subdivision always does, noise never.
   bool limit = true;
+  /// Bumps that each step adds; none with amplitude 0.
+  FractalNoise noise;
+  /// Of stems by templates and cylinders.
+  StemTip tip = StemTip::kCapped;
+  StemTexture texture = StemTexture::kReflected;
 };
 
 /// A camera whose place may be left to the program: without a position it stands in the direction given by the angles,

@@ -443,10 +443,32 @@ void add_surface_keys(Keys& keys) {
       "How the model gets its surface: by the field of its BlobTree, or by Loop subdivision of a control mesh."));
   keys.push_back(integer(
       "surface.level", 0, 10, [](auto& s) -> auto& { return s.surface.level; },
-      "Times that each triangle of a control mesh is split in four."));
+      "Times that each triangle of a control mesh is split in four, or at the most is."));
+  keys.push_back(number(
+      "surface.max_angle_degrees", {0, 180, true, false}, [](auto& s) -> auto& { return s.surface.max_angle_degrees; },
+      "Splits only where triangles meet at more than this angle. Left out, all are split alike."));
   keys.push_back(flag(
       "surface.limit", [](auto& s) -> auto& { return s.surface.limit; },
       "Whether the vertices of a refined control mesh are moved to its limit surface."));
+  keys.push_back(number(
+      "surface.noise", at_least(0), [](auto& s) -> auto& { return s.surface.noise.amplitude; },
+      "Amplitude of the noise by which every step moves vertices, in scene units; then there is no limit surface."));
+  keys.push_back(number(
+      "surface.noise_hurst", from_to(0, 1), [](auto& s) -> auto& { return s.surface.noise.hurst; },
+      "How much less noise finer steps have: 0 as much, 1 hardly any."));
+  keys.push_back(number(
+      "surface.noise_bias", {0, 1, true, false}, [](auto& s) -> auto& { return s.surface.noise.bias; },
+      "How noise falls with age: 0.5 in proportion, less spares the young more, 1 no one."));
+  keys.push_back(integer(
+      "surface.noise_seed", 0, kMost, [](auto& s) -> auto& { return s.surface.noise.seed; }, "Seed of the noise."));
+  keys.push_back(choice<StemTip>(
+      "surface.tip", {{StemTip::kCapped, "capped"}, {StemTip::kSharp, "sharp"}, {StemTip::kTapered, "tapered"}},
+      [](auto& s) -> auto& { return s.surface.tip; },
+      "How branches by templates and cylinders end: rounded, by a cut, or in a point."));
+  keys.push_back(choice<StemTexture>(
+      "surface.texture", {{StemTexture::kReflected, "reflected"}, {StemTexture::kCylindrical, "cylindrical"}},
+      [](auto& s) -> auto& { return s.surface.texture; },
+      "Their texture coordinates: six reflected copies around without seams, or unrolled with seams."));
   keys.push_back(choice<JunctionKind>(
       "junction.kind", {{JunctionKind::kRidge, "ridge"}, {JunctionKind::kSmooth, "smooth"}},
       [](auto& s) -> auto& { return s.tree.junction; }, "Whether branches that meet raise a bark ridge or blend."));

@@ -2,7 +2,9 @@
 
 #include "base/error.h"
 #include "polygonize/polygonize.h"
+#include "subdivision/adaptive.h"
 #include "subdivision/cylinder_mesh.h"
+#include "subdivision/fractal_noise.h"
 #include "subdivision/hull.h"
 #include "subdivision/leaf_mesh.h"
 #include "subdivision/limit.h"
@@ -38,6 +40,8 @@ ControlMesh make_control_mesh(const Scene& scene, const Skeleton& skeleton) {
   }
   StemOptions stem;
   stem.radius_scale = kHexagonScale;
+  stem.tip = scene.surface.tip;
+  stem.texture = scene.surface.texture;
   switch (scene.surface.method) {
     case SurfaceMethod::kTemplates: {
       TemplateOptions options;
@@ -59,8 +63,19 @@ ControlMesh make_control_mesh(const Scene& scene, const Skeleton& skeleton) {
 Mesh refine(const Scene& scene, const ControlMesh& control, std::size_t max_triangles) {
   LoopOptions options;
   options.max_triangles = max_triangles;
-  if (!scene.surface.limit) return to_mesh(subdivide(control, scene.surface.level, options));
-  LimitSurface surface = limit_surface(control, scene.surface.level, options);
+  const SurfaceOptions& wanted = scene.surface;
+  if (wanted.noise.amplitude > 0) return to_mesh(subdivide_with_noise(control, wanted.level, wanted.noise, options));
+  if (!wanted.max_angle_degrees && !wanted.limit) return to_mesh(subdivide(control, wanted.level, options));
+  LimitSurface surface;
+  if (wanted.max_angle_degrees) {
+    AdaptiveOptions adaptive;
+    adaptive.max_angle_degrees = *wanted.max_angle_degrees;
+    adaptive.max_level = wanted.level;
+    adaptive.loop = options;
+    surface = subdivide_adaptively(control, adaptive);
+  } else {
+    surface = limit_surface(control, wanted.level, options);
+  }
   surface.mesh.texture = std::move(surface.texture);
   surface.mesh.texture_triangles = std::move(surface.texture_triangles);
   return std::move(surface.mesh);

@@ -20,8 +20,9 @@ bool is_subdivided(const Scene& scene);
 /// where the method cannot dress it.
 ControlMesh make_control_mesh(const Scene& scene, const Skeleton& skeleton);
 
-/// A control mesh refined as the scene says: with every vertex on the limit surface and the surface's normals or, by
-/// `surface.limit = false`, as the refined control mesh. Throws `LimitError` for more triangles than the limit.
+/// A control mesh refined as the scene says: all triangles alike or adaptively, with every vertex on the limit surface
+/// and the surface's normals, or as a refined control mesh, perhaps with noise. Throws `LimitError` for more triangles
+/// than the limit.
 Mesh refine(const Scene& scene, const ControlMesh& control, std::size_t max_triangles);
 
 /// The field's surface at the scene's cell size.

@@ -67,11 +67,14 @@ struct StudiedModel {
 
   Scene with(const StudySetting& setting) const {
     Scene changed = scene;
-    changed.surface = {setting.method == "templates"   ? SurfaceMethod::kTemplates
-                       : setting.method == "hull"      ? SurfaceMethod::kHull
-                       : setting.method == "cylinders" ? SurfaceMethod::kCylinders
-                                                       : SurfaceMethod::kImplicit,
-                       setting.level, true};
+    changed.surface.method = setting.method == "templates"   ? SurfaceMethod::kTemplates
+                             : setting.method == "hull"      ? SurfaceMethod::kHull
+                             : setting.method == "cylinders" ? SurfaceMethod::kCylinders
+                                                             : SurfaceMethod::kImplicit;
+    changed.surface.level = setting.level;
+    changed.surface.limit = true;
+    changed.surface.max_angle_degrees.reset();
+    changed.surface.noise.amplitude = 0;
     if (setting.method == "implicit") changed.cell_size = setting.cell_factor * thinnest;
     return changed;
   }

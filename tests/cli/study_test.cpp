@@ -25,7 +25,7 @@ constexpr const char* kFork =
 TEST_CASE("a study of a fork has every method at every resolution, and a page with it all") {
   const ScratchFolder folder;
   const std::string scene = folder.write("fork.skel", kFork), out = folder.path("out");
-  const Finished study = run_program({"study", scene, "-o", out, "--turns", "1", "-q"});
+  const Finished study = run_program({"study", scene, "-o", out, "--turns", "1", "--places", "6", "-q"});
   CHECK(study.err == "");
   REQUIRE(study.status == 0);
   const auto report = nlohmann::json::parse(read_file(out + "/report.json"));
@@ -83,6 +83,17 @@ TEST_CASE("every surface of a fork is a mesh and a picture") {
     CHECK(run_program({"render", scene, "--surface", method, "-o", picture, "--size", "24x32", "-q"}).status == 0);
     CHECK(read_file(mesh).find("\nf ") != std::string::npos);
   }
+  const auto triangles_with = [&](const std::vector<std::string>& definitions) {
+    const std::string statistics = folder.path("s.json");
+    std::vector<std::string> arguments{"mesh",    scene, "--surface",    "templates",
+                                       "--level", "4",   "--statistics", statistics};
+    for (const std::string& definition : definitions) arguments.insert(arguments.end(), {"-D", definition});
+    REQUIRE(run_program(arguments).status == 0);
+    return nlohmann::json::parse(read_file(statistics))["triangles"].get<int>();
+  };
+  const int all = triangles_with({});
+  CHECK(triangles_with({"surface.max_angle_degrees=20"}) < all / 2);
+  CHECK(triangles_with({"surface.noise=0.002", "surface.tip=tapered", "surface.texture=cylindrical"}) > all / 2);
   CHECK_THAT(run_program({"mesh", scene, "--surface", "wood", "-o", folder.path("m.obj")}).err,
              Contains("surface.method: expected \"implicit\""));
 }
