@@ -13,6 +13,7 @@
 #include "raytrace/image_file.h"
 #include "scene/solid_bounds.h"
 #include "scene/surface.h"
+#include "study/crossings.h"
 #include "study/field_within.h"
 #include "study/patch.h"
 #include "study/surface_error.h"
@@ -209,6 +210,7 @@ void measure_scene(const StudyScene& named, const MeshRunner& run, const StudyOp
       if (errors[i].count > 0) {
         m.error = PixelError{errors[i].largest / model.pixel, errors[i].root_mean_square() / model.pixel};
       }
+      if (meshes[i].triangles.size() <= options.most_for_crossings) m.crossings = crossing_pairs(meshes[i]);
       findings.measurements.push_back(std::move(m));
       if (is_shown(candidate->setting)) {
         findings.pictures.push_back(picture_of(named, model, *candidate, meshes[i], options));

@@ -44,6 +44,8 @@ struct StudyOptions {
   std::size_t max_triangles = 20'000'000;
   /// Places on each model where its error is measured.
   int windows = 24;
+  /// Crossings are counted in meshes of at most so many triangles.
+  std::size_t most_for_crossings = 1'000'000;
   /// Width and height of the pictures that are shown, in pixels, and the folder that they are put into.
   int picture = 420;
   std::string picture_folder;
