@@ -157,3 +157,24 @@ TEST_CASE("numbers out of range are refused by rules and by marks") {
   CHECK_THROWS_AS(drawn("[@k]"), InputError);
   CHECK_THROWS_AS(drawn("F[@k(-1)]"), InputError);
 }
+
+TEST_CASE("what growth has shed leaves scars that shrink evenly and are gone when they have healed") {
+  Skeleton skeleton = drawn("!(2)F(4)F(4)");
+  skeleton.shed_branches = {
+      {0, {0, 4, 0}, {1, 0, 0}, 0.4, 3}, {0, {0, 4, 0}, {-1, 0, 0}, 0.3, 8}, {-1, {}, {1, 0, 0}, 1, 0}};
+  const Skeleton left = with_scars_of_shed(skeleton, 8, {1, 0.4, 0.2});
+  REQUIRE(left.internodes.size() == 3);
+  REQUIRE(left.scars.size() == 1);
+  CHECK(left.scars[0].internode == 2);
+  CHECK(left.scars[0].shape.width == 1);
+  CHECK(left.scars[0].shape.depth == Approx(0.4 * 5 / 8));
+  CHECK(left.scars[0].shape.stub == Approx(0.2 * 5 / 8));
+  const Internode& stub = left.internodes[2];
+  CHECK(stub.parent == 0);
+  CHECK(stub.order == 1);
+  CHECK(stub.base == Vec3(0, 4, 0));
+  CHECK(glm::distance(stub.tip, Vec3(stub_length(1, 0.4), 4, 0)) < 1e-12);
+  CHECK(stub.tip_radius == 0.4);
+  CHECK(with_scars_of_shed(skeleton, 3, {}).scars.empty());
+  CHECK_THROWS_AS(with_scars_of_shed(skeleton, 8, {-1, 0, 0}), InputError);
+}

@@ -87,3 +87,42 @@ TEST_CASE("the time that the camera is fitted to counts in the hash of a growing
   CHECK(hash_of("framed_time = 2") == hash_of(""));
   CHECK(hash_of("time = 2\nframed_time = 2") != hash_of("time = 2"));
 }
+
+TEST_CASE("a shed branch leaves a hollow in the bark, which closes without a jump") {
+  // A lateral that the seventh step removes from a trunk of radius 1.
+  const auto scene = [](const std::string& healing) {
+    const ScratchFolder folder;
+    return load_scene(folder.write("a.toml", R"(
+[model]
+lsystem_text = '''
+Lsystem: 1
+derivation length: 12
+axiom: !(2)F(6)[!(0.8)+(90)C(0)F(3)]F(6)
+C(n) : n < 5 --> C(n+1)
+C(n) : n >= 5 --> %
+endlsystem
+'''
+[growth]
+elongation_steps = 0
+thickening_steps = 0
+)" + healing));
+  };
+  const auto scars_at = [&](const Scene& s, double time) { return make_model(at_time(s, time)).skeleton.scars; };
+  const Scene healing = scene("healing_steps = 4");
+  CHECK(scars_at(scene(""), 8).empty());
+  CHECK(scars_at(healing, 4).empty());
+  CHECK(scars_at(healing, 12).empty());
+  double last = 1;
+  int seen = 0;
+  for (double time = 5; time < 12; time += 0.25) {
+    const auto scars = scars_at(healing, time);
+    if (scars.empty()) continue;
+    REQUIRE(scars.size() == 1);
+    CHECK(scars[0].shape.depth < last);
+    if (seen > 0) CHECK(last - scars[0].shape.depth == Approx(0.3 * 0.25 / 4));
+    last = scars[0].shape.depth;
+    ++seen;
+  }
+  CHECK(seen >= 15);
+  CHECK(last < 0.03);
+}
