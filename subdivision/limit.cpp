@@ -4,6 +4,7 @@
 
 #include "base/large_room.h"
 #include "subdivision/loop_level.h"
+#include "subdivision/to_mesh.h"
 
 namespace barkridge {
 
@@ -23,6 +24,7 @@ LimitSurface limit_surface(const ControlMesh& mesh, int levels, const LoopOption
     limit.texture[i] = limit_texture(level.charts, static_cast<std::uint32_t>(i));
   });
   limit.mesh.triangles = std::move(level.surface.mesh.triangles);
+  keep_attributes(limit.mesh, std::move(level.internodes), std::move(level.ages));
   limit.texture_triangles = std::move(level.charts.mesh.triangles);
   return limit;
 }

@@ -22,7 +22,7 @@ struct LimitSurface {
 
 /// Refines `levels` times, as `subdivide` does, and takes every vertex to its limit, with the surface's normal there
 /// [HDD94]. Semi-sharp edges that are not used up by then count with what they will yet do. Where the surface has no
-/// one normal: subdivision/ring.h, `limit_normal`.
+/// one normal: subdivision/ring.h, `limit_normal`. Internodes and ages become attributes of the mesh.
 ///
 /// Throws as `subdivide`. Parallel; memory and time in proportion to the result.
 LimitSurface limit_surface(const ControlMesh& mesh, int levels, const LoopOptions& options = {});

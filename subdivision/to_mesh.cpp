@@ -7,8 +7,16 @@
 
 namespace barkridge {
 
+void keep_attributes(Mesh& mesh, std::vector<InternodeId> internodes, std::vector<float> ages) {
+  if (!internodes.empty()) mesh.attributes.push_back({"internode", std::move(internodes)});
+  if (!ages.empty()) mesh.attributes.push_back({"age", std::move(ages)});
+}
+
 Mesh to_mesh(ControlMesh mesh) {
   Mesh result;
+  result.texture = std::move(mesh.texture);
+  result.texture_triangles = std::move(mesh.texture_triangles);
+  keep_attributes(result, std::move(mesh.internodes), std::move(mesh.ages));
   result.positions = std::move(mesh.positions);
   result.triangles = std::move(mesh.triangles);
   result.normals.assign(result.positions.size(), glm::vec3(0));

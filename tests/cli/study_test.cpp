@@ -82,6 +82,14 @@ TEST_CASE("every surface of a fork is a mesh and a picture") {
     CHECK(run_program({"mesh", scene, "--surface", method, "--level", "1", "-o", mesh, "-q"}).status == 0);
     CHECK(run_program({"render", scene, "--surface", method, "-o", picture, "--size", "24x32", "-q"}).status == 0);
     CHECK(read_file(mesh).find("\nf ") != std::string::npos);
+    if (method == std::string("implicit")) continue;
+    CHECK(read_file(mesh).find("\nvt ") != std::string::npos);
+    const std::string ply = folder.path("m.ply");
+    for (const char* const limit : {"surface.limit=true", "surface.limit=false"}) {
+      CHECK(run_program({"mesh", scene, "--surface", method, "--level", "1", "-D", limit, "-o", ply, "-q"}).status ==
+            0);
+      CHECK_THAT(read_file(ply), Contains("property int internode") && Contains("property float age"));
+    }
   }
   const auto triangles_with = [&](const std::vector<std::string>& definitions) {
     const std::string statistics = folder.path("s.json");
