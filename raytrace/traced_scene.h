@@ -1,23 +1,15 @@
 #pragma once
 // What a tracer traverses with Embree: the cells of a field, or the triangles of a mesh.
 
-#include <embree3/rtcore.h>
-
 #include <memory>
 #include <optional>
 
 #include "blobtree/field.h"
 #include "mesh/mesh.h"
+#include "raytrace/embree_handles.h"
 #include "raytrace/tracer.h"
 
 namespace barkridge {
-
-struct ReleaseDevice {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct ReleaseScene {
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
 
 /// A scene in Embree. Embree works in floats, so it sees everything moved to the origin and scaled to half diagonal 1,
 /// and rays that start where they enter the scene's box.
@@ -55,8 +47,8 @@ class TracedScene {
   Box box_;
   Vec3 center_{0};
   double scale_ = 1;
-  std::unique_ptr<RTCDeviceTy, ReleaseDevice> device_;
-  std::unique_ptr<RTCSceneTy, ReleaseScene> embree_;
+  DeviceHandle device_;
+  SceneHandle embree_;
 };
 
 /// Both throw `std::bad_alloc` where Embree has no room. The first keeps what it needs of the field, the second of the

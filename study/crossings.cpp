@@ -1,7 +1,5 @@
 #include "study/crossings.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -11,17 +9,11 @@
 #include <stdexcept>
 
 #include "base/geometry.h"
+#include "raytrace/embree_handles.h"
 
 namespace barkridge {
 
 namespace {
-
-struct ReleaseDevice {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct ReleaseScene {
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
 
 using Corners = std::array<Vec3, 3>;
 
@@ -92,9 +84,9 @@ void collide_callback(void* user, RTCCollision* collisions, unsigned int count) 
 std::size_t crossing_pairs(const Mesh& mesh) {
   if (mesh.triangles.empty()) return 0;
   Counter counter{mesh};
-  const std::unique_ptr<RTCDeviceTy, ReleaseDevice> device(rtcNewDevice(nullptr));
+  const DeviceHandle device(rtcNewDevice(nullptr));
   if (!device) throw std::runtime_error("Embree cannot start on this machine");
-  const std::unique_ptr<RTCSceneTy, ReleaseScene> scene(rtcNewScene(device.get()));
+  const SceneHandle scene(rtcNewScene(device.get()));
   const RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(mesh.triangles.size()));
   rtcSetGeometryUserData(geometry, &counter);

@@ -10,6 +10,8 @@
 #include <new>
 #include <stdexcept>
 
+#include "raytrace/embree_handles.h"
+
 namespace barkridge {
 
 namespace {
@@ -36,20 +38,13 @@ Vec3 nearest_of_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3
   return a + vb / sum * ab + vc / sum * ac;
 }
 
-struct ReleaseDevice {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct ReleaseScene {
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-
 }  // namespace
 
 struct NearestPoint::Tree {
   std::vector<glm::vec3> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::unique_ptr<RTCDeviceTy, ReleaseDevice> device;
-  std::unique_ptr<RTCSceneTy, ReleaseScene> scene;
+  DeviceHandle device;
+  SceneHandle scene;
 
   explicit Tree(const Mesh& mesh) : positions(mesh.positions), triangles(mesh.triangles) {
     device.reset(rtcNewDevice(nullptr));
