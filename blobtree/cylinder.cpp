@@ -16,35 +16,6 @@ Box box_around(const Cylinder& c) {
   return unite(disc_box(c.center - end, c.axis, c.radius), disc_box(c.center + end, c.axis, c.radius));
 }
 
-Interval clip(const Ray& ray, const Cylinder& c, Interval range) {
-  // A slope that small cannot be told from none.
-  constexpr double kNone = 1e-12;
-  // The ray's parameter from the point nearest to the centre on.
-  const double nearest = glm::dot(c.center - ray.origin, ray.direction);
-  const Vec3 from_center = ray.at(nearest) - c.center;
-  const double y = glm::dot(from_center, c.axis), y_slope = glm::dot(ray.direction, c.axis);
-  const Vec3 beside = from_center - y * c.axis, aside = ray.direction - y_slope * c.axis;
-  const double a = glm::dot(aside, aside), b = glm::dot(beside, aside);
-  const double outside = glm::dot(beside, beside) - c.radius * c.radius;
-  Interval part{range.lo - nearest, range.hi - nearest};
-  if (a > kNone) {
-    const double discriminant = b * b - a * outside;
-    if (discriminant < 0) return {};
-    const double root = std::sqrt(discriminant);
-    part = {std::max(part.lo, (-b - root) / a), std::min(part.hi, (-b + root) / a)};
-  } else if (outside > 0) {
-    return {};
-  }
-  if (std::abs(y_slope) > kNone) {
-    const double middle = -y / y_slope, half = std::abs(c.half_length / y_slope);
-    part = {std::max(part.lo, middle - half), std::min(part.hi, middle + half)};
-  } else if (std::abs(y) > c.half_length) {
-    return {};
-  }
-  // No part grows beyond the range by rounding.
-  return {std::max(range.lo, nearest + part.lo), std::min(range.hi, nearest + part.hi)};
-}
-
 // The distance of two segments [Ericson 2005, "Real-Time Collision Detection", section 5.1.9].
 bool may_overlap(const Cylinder& a, const Cylinder& b) {
   const Vec3 between = a.center - b.center;

@@ -17,9 +17,6 @@ Cylinder cylinder_around(const Box& box);
 /// The smallest box that holds a cylinder.
 Box box_around(const Cylinder& cylinder);
 
-/// The part of a range in which a ray is in the cylinder, or a little more.
-Interval clip(const Ray& ray, const Cylinder& cylinder, Interval range);
-
 /// False only where two cylinders do not overlap: where their axes stay farther from each other than the sum of the
 /// radii.
 bool may_overlap(const Cylinder& a, const Cylinder& b);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "blobtree/ray_search.h"
 
@@ -40,24 +41,36 @@ class SingleCell final : public SurfaceCells {
   std::size_t size() const override { return box_.empty() ? 0 : 1; }
   Box box(std::size_t) const override { return box_; }
 
-  std::optional<SurfacePoint> first_inside(std::size_t, const Ray& ray, const Interval& range, double,
-                                           double tolerance) const override {
-    const Interval part = clip(ray, box_, range);
-    if (part.empty()) return std::nullopt;
-    const std::optional<double> t = search(*field_, ray, part, tolerance, false);
-    if (!t) return std::nullopt;
-    const Vec3 point = ray.at(*t);
-    double value = 0;
-    Vec3 gradient{0};
-    field_->values_and_gradients({&point, 1}, {&value, 1}, {&gradient, 1});
-    return SurfacePoint{*t, gradient};
+  RayLanes first_inside(std::size_t, const RayBundle& bundle, RayLanes rays, const RayRanges::Column&, double tolerance,
+                        std::array<SurfacePoint, RayBundle::kWidth>& found) const override {
+    RayLanes hits = 0;
+    for_each_lane(rays, [&](std::size_t lane) {
+      const std::optional<double> t = search_part(bundle, lane, tolerance, false);
+      if (!t) return;
+      const Vec3 point = bundle.ray(lane).at(*t);
+      double value = 0;
+      Vec3 gradient{0};
+      field_->values_and_gradients({&point, 1}, {&value, 1}, {&gradient, 1});
+      found[lane] = {*t, gradient};
+      hits |= RayLanes{1} << lane;
+    });
+    return hits;
   }
-  bool any_inside(std::size_t, const Ray& ray, const Interval& range, double tolerance) const override {
-    const Interval part = clip(ray, box_, range);
-    return !part.empty() && search(*field_, ray, part, tolerance, true).has_value();
+  RayLanes any_inside(std::size_t, const RayBundle& bundle, RayLanes rays, double tolerance) const override {
+    RayLanes hits = 0;
+    for_each_lane(rays, [&](std::size_t lane) {
+      if (search_part(bundle, lane, tolerance, true)) hits |= RayLanes{1} << lane;
+    });
+    return hits;
   }
 
  private:
+  std::optional<double> search_part(const RayBundle& bundle, std::size_t lane, double tolerance, bool any) const {
+    const Ray ray = bundle.ray(lane);
+    const Interval part = clip(ray, box_, bundle.ranges[lane]);
+    return part.empty() ? std::nullopt : search(*field_, ray, part, tolerance, any);
+  }
+
   std::shared_ptr<const Field> field_;
   Box box_;
 };

@@ -9,7 +9,7 @@
 
 #include "blobtree/cone_record.h"
 #include "blobtree/field.h"
-#include "blobtree/ray_search.h"
+#include "blobtree/ray_bundle.h"
 
 namespace barkridge {
 
@@ -75,10 +75,12 @@ std::size_t primitive_count_of(const FieldProgram& program);
 void evaluate(const FieldModel& model, const FieldProgram& program, std::span<const Vec3> points,
               std::span<double> values, std::span<Vec3> gradients);
 
-/// The smallest t in a range of a ray with F >= kIsoValue, or with `any` any such t, or none, as RaySearch finds it: in
-/// single precision about the range's middle. `bounds` are the program's on the range.
-std::optional<double> search_along(const FieldModel& model, const FieldProgram& program, const FieldBounds& bounds,
-                                   const Ray& ray, const Interval& range, double tolerance, double precision, bool any);
+/// The smallest t in the range of each of some rays with F >= kIsoValue, or with `any` any such t, as RaySearch finds
+/// it: in single precision about the range's middle. Returns the rays that have one. `bounds` are the program's on all
+/// the ranges.
+RayLanes search_along(const FieldModel& model, const FieldProgram& program, const FieldBounds& bounds,
+                      const RayBundle& bundle, RayLanes rays, const RayRanges& ranges, double tolerance,
+                      double precision, bool any, RayRanges::Column& found);
 
 /// Bounds on a box; and, where `rest` is given, the program of all that can matter there, whose values and gradients in
 /// the box are those of `program` to the bit.
@@ -86,8 +88,8 @@ FieldBounds bound(const FieldModel& model, const FieldProgram& program, const Bo
 
 struct LineMeeting;
 
-/// The same along a piece of a ray, from what it meets; `program` is that of the primitives it meets.
+/// The same along parts of rays, from what they meet; `program` is that of the primitives they meet.
 FieldBounds bound_along(const FieldModel& model, const FieldProgram& program, const LineMeeting& meeting,
-                        const Ray& ray, const Interval& range, FieldProgram& rest);
+                        const RayBundle& bundle, FieldProgram& rest);
 
 }  // namespace barkridge

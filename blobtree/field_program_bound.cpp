@@ -55,7 +55,7 @@ class Bounder {
     warps_.clear();
   }
 
-  /// Along a piece of a ray, which lies in the box, and of which is known what it meets.
+  /// Along parts of rays, which lie in the box, and of which is known what they meet.
   FieldBounds run(const FieldProgram& program, const LineMeeting& meeting) {
     meeting_ = &meeting;
     maps_boxes_ = !model_.others.empty();  // of cones all is known
@@ -321,11 +321,15 @@ FieldBounds bound(const FieldModel& model, const FieldProgram& program, const Bo
 }
 
 FieldBounds bound_along(const FieldModel& model, const FieldProgram& program, const LineMeeting& meeting,
-                        const Ray& ray, const Interval& range, FieldProgram& rest) {
+                        const RayBundle& bundle, FieldProgram& rest) {
   thread_local Scratch scratch;
   rest.clear();
-  const Vec3 a = ray.at(range.lo), b = ray.at(range.hi);
-  return Bounder(model, {glm::min(a, b), glm::max(a, b)}, rest, scratch).run(program, meeting);
+  Box box;
+  for_each_lane(meeting.rays, [&](std::size_t lane) {
+    const Ray ray = bundle.ray(lane);
+    box = unite(unite(box, ray.at(meeting.reach.lo[lane])), ray.at(meeting.reach.hi[lane]));
+  });
+  return Bounder(model, box, rest, scratch).run(program, meeting);
 }
 
 }  // namespace barkridge

@@ -8,6 +8,7 @@
 #include "blobtree/bend_kernels.h"
 #include "blobtree/operator_kernels.h"
 #include "blobtree/primitive.h"
+#include "blobtree/ray_search.h"
 
 namespace barkridge {
 
@@ -344,27 +345,59 @@ void evaluate(const FieldModel& model, const FieldProgram& program, std::span<co
       });
 }
 
-std::optional<double> search_along(const FieldModel& model, const FieldProgram& program, const FieldBounds& bounds,
-                                   const Ray& ray, const Interval& range, double tolerance, double precision,
-                                   bool any) {
-  constexpr std::size_t kSamples = kBatchGranule;
-  Machine machine(model, program, kSamples, false, scratch_of_thread());
-  const double middle = 0.5 * (range.lo + range.hi);
-  const bool follows = machine.can_follow_line();
-  follows ? machine.follow_line(ray.at(middle), ray.direction, 0.5 * model.units.scale * (range.hi - range.lo))
-          : machine.set_origin(ray.at(middle));
-  const auto sample = [&](const Interval& part, std::array<float, kSamples>& values) {
-    const auto first = static_cast<float>(model.units.scale * (part.lo - middle));
-    const auto step = static_cast<float>(model.units.scale * (part.hi - part.lo) / (kSamples - 1));
-    for (std::size_t axis = 0; axis < (follows ? 1 : 3); ++axis) {
-      const float slope = follows ? 1 : static_cast<float>(ray.direction[static_cast<int>(axis)]);
-      float* column = machine.point_column(axis);
-      for (std::size_t i = 0; i < kSamples; ++i) column[i] = slope * (first + step * static_cast<float>(i));
+namespace {
+
+constexpr std::size_t kSearchSamples = kBatchGranule;
+
+// Samples of a program along a ray, by parameters of the ray.
+class RaySampler {
+ public:
+  RaySampler(Machine& machine, const FieldModel& model, const Ray& ray, const Interval& range)
+      : machine_(machine),
+        scale_(model.units.scale),
+        direction_(ray.direction),
+        middle_(0.5 * (range.lo + range.hi)),
+        follows_(machine.can_follow_line()) {
+    follows_ ? machine_.follow_line(ray.at(middle_), direction_, 0.5 * scale_ * (range.hi - range.lo))
+             : machine_.set_origin(ray.at(middle_));
+  }
+
+  void operator()(const Interval& part, std::array<float, kSearchSamples>& values) const {
+    const auto first = static_cast<float>(scale_ * (part.lo - middle_));
+    const auto step = static_cast<float>(scale_ * (part.hi - part.lo) / (kSearchSamples - 1));
+    for (std::size_t axis = 0; axis < (follows_ ? 1 : 3); ++axis) {
+      const float slope = follows_ ? 1 : static_cast<float>(direction_[static_cast<int>(axis)]);
+      float* column = machine_.point_column(axis);
+      for (std::size_t i = 0; i < kSearchSamples; ++i) column[i] = slope * (first + step * static_cast<float>(i));
     }
-    machine.run(kSamples);
-    std::copy_n(machine.result().f, kSamples, values.begin());
-  };
-  return RaySearch<float, decltype(sample)>(sample, bounds, tolerance, precision, any).run(range);
+    machine_.run(kSearchSamples);
+    std::copy_n(machine_.result().f, kSearchSamples, values.begin());
+  }
+
+ private:
+  Machine& machine_;
+  double scale_;
+  Vec3 direction_;
+  double middle_;
+  bool follows_;
+};
+
+}  // namespace
+
+RayLanes search_along(const FieldModel& model, const FieldProgram& program, const FieldBounds& bounds,
+                      const RayBundle& bundle, RayLanes rays, const RayRanges& ranges, double tolerance,
+                      double precision, bool any, RayRanges::Column& found) {
+  Machine machine(model, program, kSearchSamples, false, scratch_of_thread());
+  RayLanes hits = 0;
+  for_each_lane(rays, [&](std::size_t lane) {
+    const RaySampler sampler(machine, model, bundle.ray(lane), ranges[lane]);
+    const RaySearch<float, RaySampler> search(sampler, bounds, tolerance, precision, any);
+    const std::optional<double> t = search.run(ranges[lane]);
+    if (!t) return;
+    found[lane] = *t;
+    hits |= RayLanes{1} << lane;
+  });
+  return hits;
 }
 
 }  // namespace barkridge

@@ -1,8 +1,9 @@
 #include "blobtree/line_cones.h"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <limits>
+#include <vector>
 
 #include "blobtree/line_kernels.h"
 #include "blobtree/operator_bounds.h"
@@ -20,37 +21,8 @@ struct Piece {
   double slack = 0;
 };
 
-void place(const ConeRecord& c, ConeKind kind, const Piece& piece, const ModelUnits& units, std::size_t lane,
-           ConeColumns& columns) {
-  const Vec3 base = units.scale * (c.base - piece.middle);
-  for (int k = 0; k < 3; ++k) {
-    const auto axis = static_cast<std::size_t>(k);
-    columns.base[axis][lane] = static_cast<float>(base[k]);
-    columns.axis[axis][lane] = c.axis[k];
-    columns.direction[axis][lane] = static_cast<float>(piece.direction[k]);
-  }
-  columns.base_radius[lane] = c.base_radius;
-  columns.taper[lane] = c.taper;
-  columns.length[lane] = c.length;
-  columns.rise_start[lane] = c.rise_start;
-  columns.rise_scale[lane] = c.rise_scale;
-  columns.fall_start[lane] = c.fall_start;
-  columns.fall_scale[lane] = c.fall_scale;
-  columns.is_plain[lane] = kind == ConeKind::kPlain ? 1 : 0;
-  columns.limited_slope[lane] = kind == ConeKind::kLimited ? static_cast<float>(limited_slope(c)) : 0;
-  columns.half[lane] = static_cast<float>(units.scale * piece.half);
-  columns.slack[lane] = static_cast<float>(std::min(units.scale * piece.slack, 1e15));
-}
-
-// The only warp above a sum; nothing if there are more.
-const Warp* only_warp(const FieldModel& model, std::uint32_t sum) {
-  const Warp* warp = nullptr;
-  for (std::uint32_t at = model.operators[sum].kept_above; at != kNoOperator; at = model.operators[at].kept_above) {
-    if (model.operators[at].op != FieldInstruction::Op::kEnterWarp) continue;
-    if (warp) return nullptr;
-    warp = &model.warps[model.operators[at].index];
-  }
-  return warp;
+Piece straight_piece(const Ray& ray, const Interval& range) {
+  return {ray.at(0.5 * (range.lo + range.hi)), ray.direction, 0.5 * (range.hi - range.lo), 0};
 }
 
 // Under a warp a ray's piece is a curve, which stays near the chord of its ends. [docs/field.md, "Bend"]
@@ -64,103 +36,330 @@ Piece chord_of(const WarpedPiece& warped, double length) {
   return piece;
 }
 
-ConeBounds bounds_at(const ConesMet& met, std::size_t lane, double scale) {
-  const auto unit = [](float x) { return static_cast<double>(x); };
-  return {{{0, unit(met.highest[lane])},
-           scale * unit(met.slope[lane]),
-           {scale * scale * unit(met.least_second[lane]), scale * scale * unit(met.most_second[lane])}},
-          (met.steady >> lane & 1) != 0};
+void place(const ConeRecord& c, ConeKind kind, const Vec3& origin, const ModelUnits& units, std::size_t lane,
+           ConeColumns& columns) {
+  const Vec3 base = units.scale * (c.base - origin);
+  for (int k = 0; k < 3; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    columns.base[axis][lane] = static_cast<float>(base[k]);
+    columns.axis[axis][lane] = c.axis[k];
+  }
+  columns.base_radius[lane] = c.base_radius;
+  columns.taper[lane] = c.taper;
+  columns.length[lane] = c.length;
+  columns.rise_start[lane] = c.rise_start;
+  columns.rise_scale[lane] = c.rise_scale;
+  columns.fall_start[lane] = c.fall_start;
+  columns.fall_scale[lane] = c.fall_scale;
+  columns.is_plain[lane] = kind == ConeKind::kPlain ? 1 : 0;
+  columns.limited_slope[lane] = kind == ConeKind::kLimited ? static_cast<float>(limited_slope(c)) : 0;
 }
 
-// Of a cone under several warps, from a box around the piece.
-ConeBounds bounds_in_box(const FieldModel& model, std::uint32_t number, const Ray& ray, const Interval& range) {
+void place(const Piece& piece, const Vec3& origin, const ModelUnits& units, std::size_t lane, LineColumns& columns) {
+  const Vec3 middle = units.scale * (piece.middle - origin);
+  for (int k = 0; k < 3; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    columns.middle[axis][lane] = static_cast<float>(middle[k]);
+    columns.direction[axis][lane] = static_cast<float>(piece.direction[k]);
+  }
+  columns.half[lane] = static_cast<float>(units.scale * piece.half);
+  columns.slack[lane] = static_cast<float>(std::min(units.scale * piece.slack, 1e15));
+}
+
+// Of a cone under several warps, from a box around the pieces.
+FieldBounds bounds_in_box(const FieldModel& model, std::uint32_t number, Box box) {
   std::vector<std::uint32_t> warps;  // from the innermost on
   for (std::uint32_t at = model.operators[model.sums[number]].kept_above; at != kNoOperator;
        at = model.operators[at].kept_above) {
     if (model.operators[at].op == FieldInstruction::Op::kEnterWarp) warps.push_back(model.operators[at].index);
   }
-  const Vec3 a = ray.at(range.lo), b = ray.at(range.hi);
-  Box box{glm::min(a, b), glm::max(a, b)};
   double stretch = 1;
   for (std::size_t i = warps.size(); i-- > 0;) {
     const WarpedBox warped = model.warps[warps[i]].map(box);
     box = warped.box;
     stretch *= warped.stretch;
   }
-  ConeBounds bounds = bounds_of(model.cones[number], model.kinds[number], model.units, box);
-  bounds.field.slope *= stretch;
-  bounds.field.second = FieldBounds{}.second;
+  FieldBounds bounds = bounds_of(model.cones[number], model.kinds[number], model.units, box).field;
+  bounds.slope *= stretch;
+  bounds.second = FieldBounds{}.second;
   return bounds;
 }
 
+// What stands above a primitive, as far as it matters to how lines meet it.
+enum class Above { kNothing, kOneWarp, kWarps };
+
+struct Surroundings {
+  Above above = Above::kNothing;
+  const Warp* warp = nullptr;  // if it is one
+};
+
+Surroundings surroundings_of(const FieldModel& model, std::uint32_t sum) {
+  Surroundings found;
+  if (model.warps.empty()) return found;
+  for (std::uint32_t at = model.operators[sum].kept_above; at != kNoOperator; at = model.operators[at].kept_above) {
+    if (model.operators[at].op != FieldInstruction::Op::kEnterWarp) continue;
+    if (found.warp) return {Above::kWarps, nullptr};
+    found = {Above::kOneWarp, &model.warps[model.operators[at].index]};
+  }
+  return found;
+}
+
+// What the rays meet of one primitive, by their lanes in the bundle; and, of lines under a warp, the most of all.
+struct Met : ConesMet {
+  double stretch, curvature, jump;
+  bool is_warped;
+  FieldBounds in_box;  // for a cone under several warps all that is known
+  enum class What { kCone, kConeInBox, kOther } what;
+
+  void reset(What kind) {
+    met = steady = 0;
+    stretch = 1;
+    curvature = jump = 0;
+    is_warped = false;
+    what = kind;
+  }
+  void add(const WarpedPiece& piece) {
+    is_warped = true;
+    stretch = std::max(stretch, piece.stretch);
+    curvature = std::max(curvature, piece.curvature);
+    jump = std::max(jump, piece.jump);
+  }
+};
+
+// The lines that some rays are under a warp.
+struct WarpedLines {
+  const Warp* warp = nullptr;
+  Vec3 origin{0};
+  LineColumns lines;
+  WarpedPiece most;
+};
+
+class Meeter {
+ public:
+  Meeter(const FieldModel& model, std::span<const std::uint32_t> primitives, const RayBundle& bundle, RayLanes rays,
+         const RayRanges& ranges)
+      : model_(model), primitives_(primitives), bundle_(bundle), rays_(rays), ranges_(ranges), met_(memory()) {
+    if (met_.size() < primitives.size()) met_.resize(primitives.size());
+  }
+
+  void run(LineMeeting& meeting) {
+    // By whichever takes fewer calls: a ray with many cones, or a cone with many rays.
+    const auto rays = static_cast<std::size_t>(std::popcount(rays_));
+    if (rays * ((primitives_.size() + kWidth - 1) / kWidth) <= primitives_.size()) {
+      meet_by_ray();
+    } else {
+      meet_by_cone();
+    }
+    find_reach(meeting);
+    collect(meeting);
+  }
+
+ private:
+  // What a kernel meets: its place among the primitives, and the warp above it if there is one.
+  struct Candidate {
+    std::size_t index;
+    const Warp* warp;
+  };
+
+  static constexpr std::size_t kWidth = ConeColumns::kWidth;
+  static_assert(kWidth == RayBundle::kWidth);
+
+  static std::vector<Met>& memory() {
+    thread_local std::vector<Met> met;
+    return met;
+  }
+
+  // What no kernel meets is met by all.
+  bool is_met_by_kernels(std::size_t i, const Surroundings& around) {
+    const std::uint32_t number = primitives_[i];
+    met_[i].reset(model_.other_at(number) ? Met::What::kOther : Met::What::kCone);
+    if (met_[i].what == Met::What::kCone && around.above != Above::kWarps) return true;
+    met_[i].met = rays_;
+    if (met_[i].what == Met::What::kOther) return false;
+    met_[i].what = Met::What::kConeInBox;
+    met_[i].in_box = bounds_in_box(model_, number, box_around(rays_));
+    if (met_[i].in_box.value.hi <= 0) met_[i].met = 0;
+    return false;
+  }
+
+  Box box_around(RayLanes rays) const {
+    Box box;
+    for_each_lane(rays, [&](std::size_t lane) {
+      const Ray ray = bundle_.ray(lane);
+      box = unite(unite(box, ray.at(ranges_.lo[lane])), ray.at(ranges_.hi[lane]));
+    });
+    return box;
+  }
+
+  void meet_by_cone() {
+    const auto first = static_cast<std::size_t>(std::countr_zero(rays_));
+    const std::size_t count = static_cast<std::size_t>(std::bit_width(rays_));
+    const Vec3 origin = straight_piece(bundle_.ray(first), ranges_[first]).middle;
+    LineColumns straight{};
+    for_each_lane(rays_, [&](std::size_t lane) {
+      place(straight_piece(bundle_.ray(lane), ranges_[lane]), origin, model_.units, lane, straight);
+    });
+    WarpedLines warped;
+    for (std::size_t i = 0; i < primitives_.size(); ++i) {
+      const std::uint32_t number = primitives_[i];
+      const Surroundings around = surroundings_of(model_, model_.sums[number]);
+      if (!is_met_by_kernels(i, around)) continue;
+      if (around.warp && around.warp != warped.warp) warp_lines(*around.warp, warped);
+      place(model_.cones[number], model_.kinds[number], around.warp ? warped.origin : origin, model_.units, 0,
+            columns_);
+      meet_first_cone(columns_, around.warp ? warped.lines : straight, count, met_[i]);
+      met_[i].met &= rays_;
+      if (around.warp) met_[i].add(warped.most);
+    }
+  }
+
+  void warp_lines(const Warp& warp, WarpedLines& warped) const {
+    warped = {&warp, Vec3(0), {}, {{}, {}, 1, 0, 0}};
+    bool is_first = true;
+    for_each_lane(rays_, [&](std::size_t lane) {
+      const Ray ray = bundle_.ray(lane);
+      const WarpedPiece piece = warp.map(ray.at(ranges_.lo[lane]), ray.at(ranges_.hi[lane]));
+      const Piece chord = chord_of(piece, ranges_.hi[lane] - ranges_.lo[lane]);
+      if (is_first) warped.origin = chord.middle;
+      is_first = false;
+      place(chord, warped.origin, model_.units, lane, warped.lines);
+      warped.most.stretch = std::max(warped.most.stretch, piece.stretch);
+      warped.most.curvature = std::max(warped.most.curvature, piece.curvature);
+      warped.most.jump = std::max(warped.most.jump, piece.jump);
+    });
+  }
+
+  void meet_by_ray() {
+    candidates_.clear();
+    for (std::size_t i = 0; i < primitives_.size(); ++i) {
+      const Surroundings around = surroundings_of(model_, model_.sums[primitives_[i]]);
+      if (is_met_by_kernels(i, around)) candidates_.push_back({i, around.warp});
+    }
+    for_each_lane(rays_, [&](std::size_t ray) {
+      for (std::size_t start = 0; start < candidates_.size(); start += kWidth) {
+        meet_some(ray, std::span(candidates_).subspan(start, std::min(kWidth, candidates_.size() - start)));
+      }
+    });
+  }
+
+  void meet_some(std::size_t ray, std::span<const Candidate> some) {
+    const Ray whole = bundle_.ray(ray);
+    const Interval range = ranges_[ray];
+    const Piece straight = straight_piece(whole, range);
+    const Warp* warp = nullptr;
+    WarpedPiece warped;
+    for (std::size_t lane = 0; lane < some.size(); ++lane) {
+      const auto& [index, above] = some[lane];
+      if (above && above != warp) warped = above->map(whole.at(range.lo), whole.at(range.hi));
+      warp = above ? above : warp;
+      const Piece piece = above ? chord_of(warped, range.hi - range.lo) : straight;
+      if (above) met_[index].add(warped);
+      const std::uint32_t number = primitives_[index];
+      place(model_.cones[number], model_.kinds[number], piece.middle, model_.units, lane, columns_);
+      place(piece, piece.middle, model_.units, lane, lines_);
+    }
+    ConesMet result;
+    meet_cones(columns_, lines_, some.size(), result);
+    for (std::size_t lane = 0; lane < some.size(); ++lane) {
+      Met& met = met_[some[lane].index];
+      met.steady |= (result.steady >> lane & 1) << ray;
+      if ((result.met >> lane & 1) == 0) continue;
+      met.met |= RayLanes{1} << ray;
+      met.lo[ray] = result.lo[lane];
+      met.hi[ray] = result.hi[lane];
+      met.highest[ray] = result.highest[lane];
+      met.slope[ray] = result.slope[lane];
+      met.least_second[ray] = result.least_second[lane];
+      met.most_second[ray] = result.most_second[lane];
+    }
+  }
+
+  // Where the primitives that can add something do, and how much.
+  void find_reach(LineMeeting& meeting) {
+    RayRanges::Column highest{}, lo, hi;  // shares of half the range, from its middle on
+    lo.fill(std::numeric_limits<double>::infinity());
+    hi.fill(-std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < primitives_.size(); ++i) {
+      const Met& met = met_[i];
+      if (met.met == 0) continue;
+      if (model_.takes_away && only_takes_away(model_, model_.sums[primitives_[i]])) continue;
+      for_each_lane(met.met, [&](std::size_t lane) {
+        if (met.what == Met::What::kCone) {
+          highest[lane] += static_cast<double>(met.highest[lane]);
+          lo[lane] = std::min(lo[lane], static_cast<double>(met.lo[lane]));
+          hi[lane] = std::max(hi[lane], static_cast<double>(met.hi[lane]));
+        } else {
+          const bool is_bounded = met.what == Met::What::kConeInBox;
+          highest[lane] += is_bounded ? met.in_box.value.hi : std::numeric_limits<double>::infinity();
+          lo[lane] = -1;
+          hi[lane] = 1;
+        }
+      });
+    }
+    meeting.rays = 0;
+    for_each_lane(rays_, [&](std::size_t lane) {
+      if (lo[lane] > hi[lane] || (model_.is_below_sum && highest[lane] * (1 + kRounding) < kIsoValue)) return;
+      meeting.rays |= RayLanes{1} << lane;
+      // A curve is near its chord where it has come as far. No reach grows beyond the range.
+      const Interval range = ranges_[lane];
+      const double middle = 0.5 * (range.lo + range.hi), half = 0.5 * (range.hi - range.lo);
+      meeting.reach.set(lane, {lo[lane] <= -1 ? range.lo : middle + lo[lane] * half,
+                               hi[lane] >= 1 ? range.hi : middle + hi[lane] * half});
+    });
+  }
+
+  void collect(LineMeeting& meeting) const {
+    meeting.primitives.clear();
+    meeting.cones.clear();
+    for (std::size_t i = 0; i < primitives_.size(); ++i) {
+      const RayLanes rays = met_[i].met & meeting.rays;
+      if (rays == 0) continue;
+      meeting.primitives.push_back(primitives_[i]);
+      if (met_[i].what == Met::What::kOther) continue;
+      meeting.cones.push_back(met_[i].what == Met::What::kConeInBox ? ConeBounds{met_[i].in_box, false}
+                                                                    : bounds_of_cone(met_[i], rays, meeting.rays));
+    }
+  }
+
+  // On the ranges of all rays, also those that do not meet it.
+  ConeBounds bounds_of_cone(const Met& met, RayLanes rays, RayLanes all) const {
+    float highest = 0, slope = 0, least_second = 0, most_second = 0;
+    for_each_lane(rays, [&](std::size_t lane) {
+      highest = std::max(highest, met.highest[lane]);
+      slope = std::max(slope, met.slope[lane]);
+      least_second = std::min(least_second, met.least_second[lane]);
+      most_second = std::max(most_second, met.most_second[lane]);
+    });
+    const double scale = model_.units.scale;
+    const auto unit = [](float x) { return static_cast<double>(x); };
+    const FieldBounds bounds{{0, unit(highest)},
+                             scale * unit(slope),
+                             {scale * scale * unit(least_second), scale * scale * unit(most_second)}};
+    return {met.is_warped ? through_warp(bounds, met.stretch, met.curvature, met.jump) : bounds,
+            (met.steady & all) == all};
+  }
+
+  static std::vector<Candidate>& candidate_memory() {
+    thread_local std::vector<Candidate> candidates;
+    return candidates;
+  }
+
+  const FieldModel& model_;
+  std::span<const std::uint32_t> primitives_;
+  const RayBundle& bundle_;
+  RayLanes rays_;
+  const RayRanges& ranges_;
+  std::vector<Met>& met_;
+  ConeColumns columns_;
+  LineColumns lines_;
+  std::vector<Candidate>& candidates_ = candidate_memory();
+};
+
 }  // namespace
 
-void meet(const FieldModel& model, std::span<const std::uint32_t> primitives, const Ray& ray, const Interval& range,
-          LineMeeting& meeting) {
-  meeting.primitives.clear();
-  meeting.cones.clear();
-  meeting.reach = {};
-  meeting.highest_sum = 0;
-  const double scale = model.units.scale, length = range.hi - range.lo, middle = 0.5 * (range.lo + range.hi);
-  const Piece straight{ray.at(middle), ray.direction, 0.5 * length, 0};
-  const auto keep = [&](std::uint32_t number, const ConeBounds& bounds, const Interval& reach) {
-    meeting.primitives.push_back(number);
-    meeting.cones.push_back(bounds);
-    if (model.takes_away && only_takes_away(model, model.sums[number])) return;
-    meeting.highest_sum += bounds.field.value.hi;
-    meeting.reach = {std::min(meeting.reach.lo, reach.lo), std::max(meeting.reach.hi, reach.hi)};
-  };
-  bool are_all_cones = true;
-  ConeColumns columns;
-  ConesMet met;
-  std::array<std::uint32_t, ConeColumns::kWidth> numbers;
-  std::array<WarpedPiece, ConeColumns::kWidth> warped;
-  for (std::size_t next = 0; next < primitives.size();) {
-    // Cones go side by side, up to a primitive of another kind or one under several warps.
-    std::size_t count = 0;
-    unsigned bent = 0;
-    for (; next < primitives.size() && count < ConeColumns::kWidth; ++next, ++count) {
-      const std::uint32_t number = primitives[next], sum = model.sums[number];
-      if (model.other_at(number)) break;
-      numbers[count] = number;
-      if (!is_warped(model, sum)) {
-        place(model.cones[number], model.kinds[number], straight, model.units, count, columns);
-        continue;
-      }
-      const Warp* warp = only_warp(model, sum);
-      if (!warp) break;
-      warped[count] = warp->map(ray.at(range.lo), ray.at(range.hi));
-      place(model.cones[number], model.kinds[number], chord_of(warped[count], length), model.units, count, columns);
-      bent |= 1u << count;
-    }
-    if (count > 0) meet_cones(columns, count, met);
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      if ((met.met >> lane & 1) == 0) continue;
-      ConeBounds bounds = bounds_at(met, lane, scale);
-      if ((bent >> lane & 1) != 0) {
-        bounds.field = through_warp(bounds.field, warped[lane].stretch, warped[lane].curvature, warped[lane].jump);
-      }
-      // In shares of the piece: a curve is near its chord where it has come as far. No reach grows beyond the range.
-      const double half = static_cast<double>(columns.half[lane]);
-      const auto share = [&](float at) { return half > 0 ? static_cast<double>(at) / half : 0; };
-      const double lo = share(met.lo[lane]), hi = share(met.hi[lane]);
-      keep(numbers[lane], bounds,
-           {lo <= -1 ? range.lo : middle + 0.5 * lo * length, hi >= 1 ? range.hi : middle + 0.5 * hi * length});
-    }
-    if (count == ConeColumns::kWidth || next == primitives.size()) continue;
-    const std::uint32_t number = primitives[next++];
-    if (model.other_at(number)) {
-      meeting.primitives.push_back(number);
-      are_all_cones = false;
-    } else if (const ConeBounds bounds = bounds_in_box(model, number, ray, range); bounds.field.value.hi > 0) {
-      keep(number, bounds, range);
-    }
-  }
-  if (!are_all_cones) {
-    meeting.reach = range;
-    meeting.highest_sum = std::numeric_limits<double>::infinity();
-  }
-  meeting.highest_sum *= 1 + kRounding;
+void meet(const FieldModel& model, std::span<const std::uint32_t> primitives, const RayBundle& bundle, RayLanes rays,
+          const RayRanges& ranges, LineMeeting& meeting) {
+  Meeter(model, primitives, bundle, rays, ranges).run(meeting);
 }
 
 }  // namespace barkridge

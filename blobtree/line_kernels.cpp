@@ -18,6 +18,8 @@ using Mask = hn::Mask<Tag>;
 
 // Single precision makes at most this relative error in places and lengths here.
 constexpr double kRounding = 4e-6;
+// And so much in a difference of places, of their distance from the origin.
+constexpr double kPlaceRounding = 5e-7;
 
 HWY_INLINE Vec constant(double x) { return hn::Set(Tag(), static_cast<float>(x)); }
 HWY_INLINE Vec load(const ConeColumns::Column& column, std::size_t i) { return hn::Load(Tag(), &column[i]); }
@@ -38,6 +40,18 @@ HWY_INLINE Vec3V less(const Vec3V& a, Vec s, const Vec3V& b) {
   return {hn::NegMulAdd(s, b.x, a.x), hn::NegMulAdd(s, b.y, a.y), hn::NegMulAdd(s, b.z, a.z)};
 }
 
+// Where lanes find their cones: beside their lines, or in the first lane.
+struct OwnCone {
+  static Vec get(const ConeColumns::Column& column, std::size_t i) { return load(column, i); }
+};
+struct FirstCone {
+  static Vec get(const ConeColumns::Column& column, std::size_t) { return hn::Set(Tag(), column[0]); }
+};
+template <typename Which>
+HWY_INLINE Vec3V get(const std::array<ConeColumns::Column, 3>& columns, std::size_t i) {
+  return {Which::get(columns[0], i), Which::get(columns[1], i), Which::get(columns[2], i)};
+}
+
 // What matters of a cone wherever the line is.
 struct Cones {
   Vec radius, taper, steepness2;  // of the foot of a point: at the base, its growth, and 4 times that squared
@@ -48,33 +62,34 @@ struct Cones {
   Vec rise_end, rise_slope, fall_start, fall_slope;  // slopes in size; 0 where the end is free
 };
 
+template <typename Which>
 HWY_INLINE Cones cones_of(const ConeColumns& c, std::size_t i) {
   const Tag d;
   const Vec zero = hn::Zero(d), endless = constant(1e30);
   Cones k;
-  k.radius = load(c.base_radius, i);
-  k.taper = load(c.taper, i);
+  k.radius = Which::get(c.base_radius, i);
+  k.taper = Which::get(c.taper, i);
   k.steepness2 = hn::Mul(constant(4), square(k.taper));
-  k.is_plain = hn::Gt(load(c.is_plain, i), zero);
-  k.is_limited = hn::Gt(load(c.limited_slope, i), zero);
-  const Vec length = load(c.length, i), tip = hn::MulAdd(k.taper, length, k.radius);
+  k.is_plain = hn::Gt(Which::get(c.is_plain, i), zero);
+  k.is_limited = hn::Gt(Which::get(c.limited_slope, i), zero);
+  const Vec length = Which::get(c.length, i), tip = hn::MulAdd(k.taper, length, k.radius);
   const Vec thick = hn::Max(k.radius, tip), thin = hn::Min(k.radius, tip);
-  const Vec rise_start = load(c.rise_start, i), fall_start = load(c.fall_start, i);
+  const Vec rise_start = Which::get(c.rise_start, i), fall_start = Which::get(c.fall_start, i);
   const Mask free_base = hn::Lt(rise_start, hn::Neg(endless)), free_tip = hn::Gt(fall_start, endless);
   // Steep cones' caps are larger.
   const Mask is_steep = hn::Ge(k.steepness2, constant(0.98));
   const Vec base_cap = hn::IfThenElse(is_steep, hn::Mul(constant(4), thick), hn::Add(k.radius, k.radius));
   const Vec tip_cap = hn::IfThenElse(is_steep, hn::Mul(constant(4), thick), hn::Add(tip, tip));
-  const Vec rise_width = hn::Div(constant(1), load(c.rise_scale, i)),
-            fall_width = hn::Div(constant(1), load(c.fall_scale, i));
+  const Vec rise_width = hn::Div(constant(1), Which::get(c.rise_scale, i)),
+            fall_width = hn::Div(constant(1), Which::get(c.fall_scale, i));
   k.along_lo = hn::IfThenElse(free_base, hn::Neg(base_cap), rise_start);
   k.along_hi = hn::IfThenElse(free_tip, hn::Add(length, tip_cap), hn::Add(fall_start, fall_width));
   k.axis_lo = hn::IfThenElse(free_base, zero, hn::Neg(endless));
   k.axis_hi = hn::IfThenElse(free_tip, length, endless);
   k.rise_end = hn::IfThenElse(free_base, hn::Neg(endless), hn::Add(rise_start, rise_width));
   k.fall_start = hn::IfThenElse(free_tip, endless, fall_start);
-  k.rise_slope = hn::IfThenElse(free_base, zero, hn::Mul(constant(kSteepestFade), load(c.rise_scale, i)));
-  k.fall_slope = hn::IfThenElse(free_tip, zero, hn::Mul(constant(kSteepestFade), load(c.fall_scale, i)));
+  k.rise_slope = hn::IfThenElse(free_base, zero, hn::Mul(constant(kSteepestFade), Which::get(c.rise_scale, i)));
+  k.fall_slope = hn::IfThenElse(free_tip, zero, hn::Mul(constant(kSteepestFade), Which::get(c.fall_scale, i)));
   // The envelope of the spheres of twice the radius, never beyond the largest.
   const Vec most = hn::Mul(hn::IfThenElse(k.is_plain, constant(2), constant(4)), thick);
   const Vec least = hn::IfThenElse(k.is_plain, thin, hn::Mul(constant(0.5), thin));
@@ -97,6 +112,7 @@ struct Strength {
   Mask is_steady;
 };
 
+template <typename Which>
 HWY_INLINE Strength strength(const ConeColumns& c, const Cones& k, std::size_t i, const Heights& part,
                              const Heights& whole_piece, Vec rho2) {
   const Vec y_lo = part.lo, y_hi = part.hi;
@@ -118,7 +134,7 @@ HWY_INLINE Strength strength(const ConeColumns& c, const Cones& k, std::size_t i
   const Vec thin_end = hn::IfThenElse(grows, y_lo, y_hi);
   const Vec thin = hn::MulAdd(k.taper, clamped(thin_end, k.axis_lo, k.axis_hi), k.radius);
   const Vec free_slope = hn::Div(constant(0.5 * (1 + 1e-5)), hn::Max(thin, constant(1e-16)));
-  const Vec slope = hn::IfThenElse(k.is_limited, load(c.limited_slope, i), free_slope);  // of u
+  const Vec slope = hn::IfThenElse(k.is_limited, Which::get(c.limited_slope, i), free_slope);  // of u
   const Vec rise = hn::IfThenElseZero(hn::Lt(y_lo, k.rise_end), k.rise_slope);
   const Vec fall = hn::IfThenElseZero(hn::Gt(y_hi, k.fall_start), k.fall_slope);
   const Vec steeper = hn::Max(rise, fall), field_slope = hn::Mul(constant(kSteepestFalloff), slope);
@@ -150,25 +166,29 @@ HWY_INLINE Strength strength(const ConeColumns& c, const Cones& k, std::size_t i
 HWY_INLINE unsigned bits_of(Mask mask, std::size_t i) {
   std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(Tag(), mask, bytes);
-  return static_cast<unsigned>(bytes[0]) << i;
+  return (static_cast<unsigned>(bytes[0]) | static_cast<unsigned>(bytes[1]) << 8) << i;
 }
 
-void MeetCones(const ConeColumns& cones, std::size_t count, ConesMet& met) {
+template <typename Which>
+HWY_INLINE void meet_all(const ConeColumns& cones, const LineColumns& lines, std::size_t count, ConesMet& met) {
   const Tag d;
   const Vec zero = hn::Zero(d), tiny = constant(1e-12);
   met.met = met.steady = 0;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const Cones k = cones_of(cones, i);
+    const Cones k = cones_of<Which>(cones, i);
     // The line in the cone's coordinates: y = y0 + y1 t, rho^2 = n0 + 2 n1 t + n2 t^2.
-    const Vec half = load(cones.half, i), slack = load(cones.slack, i);
-    const Vec3V base = load(cones.base, i), axis = load(cones.axis, i), along = load(cones.direction, i);
-    const Vec3V from_base{hn::Neg(base.x), hn::Neg(base.y), hn::Neg(base.z)};
+    const Vec half = load(lines.half, i), slack = load(lines.slack, i);
+    const Vec3V base = get<Which>(cones.base, i), axis = get<Which>(cones.axis, i);
+    const Vec3V middle = load(lines.middle, i), along = load(lines.direction, i);
+    const Vec3V from_base{hn::Sub(middle.x, base.x), hn::Sub(middle.y, base.y), hn::Sub(middle.z, base.z)};
     const Vec y0 = dot(from_base, axis), y1 = dot(along, axis);
     const Vec3V beside = less(from_base, y0, axis), aside = less(along, y1, axis);
     const Vec n0 = dot(beside, beside), n1 = dot(beside, aside), n2 = hn::Max(dot(aside, aside), tiny);
     // What places and squares of distances are off by.
     const Vec size = hn::Add(half, k.lateral), length = hn::Add(hn::Abs(y0), size);
-    const Vec rounding = hn::Mul(constant(kRounding), length), off2 = hn::Mul(rounding, size);
+    const Vec far = hn::Max(hn::Max(hn::Abs(middle.x), hn::Abs(middle.y)), hn::Abs(middle.z));
+    const Vec place_rounding = hn::Mul(constant(kPlaceRounding), far);
+    const Vec rounding = hn::MulAdd(constant(kRounding), length, place_rounding), off2 = hn::Mul(rounding, size);
     const Vec off = hn::Add(rounding, slack);
     // Where it is beside the axis' part and near enough to it.
     const Vec lateral2 = hn::Add(square(hn::Add(k.lateral, slack)), off2);
@@ -188,13 +208,14 @@ void MeetCones(const ConeColumns& cones, std::size_t count, ConesMet& met) {
     if (!hn::AllFalse(d, hn::Gt(slack, zero))) rho2 = square(hn::Max(hn::Sub(hn::Sqrt(rho2), slack), zero));
     const Vec y_a = hn::MulAdd(y1, lo, y0), y_b = hn::MulAdd(y1, hi, y0);
     // What is steady is evaluated so all along the piece, also where it has left the support.
-    const Vec y_half = hn::MulAdd(hn::Abs(y1), half, slack);
+    const Vec y_half = hn::MulAdd(hn::Abs(y1), half, hn::Add(slack, place_rounding));
     const Heights part{hn::Max(hn::Sub(hn::Min(y_a, y_b), slack), hn::Sub(k.along_lo, rounding)),
                        hn::Min(hn::Add(hn::Max(y_a, y_b), slack), hn::Add(k.along_hi, rounding))};
     const Heights whole{hn::Sub(y0, y_half), hn::Add(y0, y_half)};
-    const Strength s = strength(cones, k, i, part, whole, rho2);
-    hn::Store(lo, d, &met.lo[i]);
-    hn::Store(hi, d, &met.hi[i]);
+    const Strength s = strength<Which>(cones, k, i, part, whole, rho2);
+    const Vec per_half = hn::Div(constant(1), hn::Max(half, constant(1e-30)));
+    hn::Store(hn::Mul(lo, per_half), d, &met.lo[i]);
+    hn::Store(hn::Mul(hi, per_half), d, &met.hi[i]);
     hn::Store(s.highest, d, &met.highest[i]);
     hn::Store(s.slope, d, &met.slope[i]);
     hn::Store(s.least_second, d, &met.least_second[i]);
@@ -204,6 +225,14 @@ void MeetCones(const ConeColumns& cones, std::size_t count, ConesMet& met) {
   }
 }
 
+void MeetCones(const ConeColumns& cones, const LineColumns& lines, std::size_t count, ConesMet& met) {
+  meet_all<OwnCone>(cones, lines, count, met);
+}
+
+void MeetFirstCone(const ConeColumns& cones, const LineColumns& lines, std::size_t count, ConesMet& met) {
+  meet_all<FirstCone>(cones, lines, count, met);
+}
+
 }  // namespace barkridge::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -211,9 +240,14 @@ HWY_AFTER_NAMESPACE();
 namespace barkridge {
 
 HWY_EXPORT(MeetCones);
+HWY_EXPORT(MeetFirstCone);
 
-void meet_cones(const ConeColumns& cones, std::size_t count, ConesMet& met) {
-  HWY_DYNAMIC_DISPATCH(MeetCones)(cones, count, met);
+void meet_cones(const ConeColumns& cones, const LineColumns& lines, std::size_t count, ConesMet& met) {
+  HWY_DYNAMIC_DISPATCH(MeetCones)(cones, lines, count, met);
+}
+
+void meet_first_cone(const ConeColumns& cones, const LineColumns& lines, std::size_t count, ConesMet& met) {
+  HWY_DYNAMIC_DISPATCH(MeetFirstCone)(cones, lines, count, met);
 }
 
 }  // namespace barkridge

@@ -189,22 +189,98 @@ constexpr double kCoarseness = 16;
 // The step may be longer where the field bends up, whose chords are bounded by nothing.
 constexpr double kLongestStep = 4 * kCoarseness;
 
-FieldSample sample_at(const FieldModel& model, const FieldProgram& program, const Vec3& point) {
-  FieldSample sample;
-  evaluate(model, program, {&point, 1}, {&sample.value, 1}, {&sample.gradient, 1});
-  return sample;
+// The roots on rays after the step, whose error is quadratic in what was left, and the gradients there; returns those
+// whose step would not be longer than `longest`.
+RayLanes polish(const FieldModel& model, const FieldProgram& program, const RayBundle& bundle, RayLanes rays,
+                const RayRanges& ranges, const RayRanges::Column& t, double longest,
+                std::array<SurfacePoint, RayBundle::kWidth>& found) {
+  std::array<Vec3, RayBundle::kWidth> points, gradients;
+  std::array<double, RayBundle::kWidth> values;
+  std::size_t count = 0;
+  for_each_lane(rays, [&](std::size_t lane) { points[count++] = bundle.ray(lane).at(t[lane]); });
+  evaluate(model, program, std::span(points).first(count), std::span(values).first(count),
+           std::span(gradients).first(count));
+  RayLanes done = 0;
+  std::size_t next = 0;
+  for_each_lane(rays, [&](std::size_t lane) {
+    const std::size_t i = next++;
+    const Interval range = ranges[lane];
+    found[lane] = {t[lane], gradients[i]};
+    if (t[lane] > range.lo) {
+      const double step = (kIsoValue - values[i]) / glm::dot(gradients[i], bundle.ray(lane).direction);
+      if (!(std::abs(step) <= longest)) return;
+      found[lane].t = std::clamp(t[lane] + step, range.lo, range.hi);
+    }
+    done |= RayLanes{1} << lane;
+  });
+  return done;
 }
 
-// A root on a ray after the step, whose error is quadratic in what was left, and the gradient; nothing where the step
-// would be longer than `longest`.
-std::optional<SurfacePoint> polished(const FieldModel& model, const FieldProgram& program, const Ray& ray, double t,
-                                     const Interval& range, double longest) {
-  const auto [value, gradient] = sample_at(model, program, ray.at(t));
-  if (t <= range.lo) return SurfacePoint{t, gradient};
-  const double step = (kIsoValue - value) / glm::dot(gradient, ray.direction);
-  if (!(std::abs(step) <= longest)) return std::nullopt;
-  return SurfacePoint{std::clamp(t + step, range.lo, range.hi), gradient};
-}
+// Some rays of a bundle in a cell. Most of the few primitives that matter in it do not matter on the rays.
+struct Search {
+  const FieldModel& model;
+  std::span<const std::uint32_t> primitives;
+  const RayBundle& bundle;
+  const RayRanges::Column& limits;
+  double tolerance;
+  bool any;  // whether any point will do
+  std::array<SurfacePoint, RayBundle::kWidth>& found;
+
+  // Returns the rays that meet the solid on parts of them.
+  RayLanes run(RayLanes rays, const RayRanges& parts) const {
+    if (rays == 0) return 0;
+    thread_local LineMeeting meeting;
+    meet(model, primitives, bundle, rays, parts, meeting);
+    rays = meeting.rays;
+    if (rays == 0) return 0;
+    // Under warps only short pieces have good bounds.
+    constexpr double kMuchShorter = 0.7, kMostVariation = 24;
+    const double length = longest(rays, meeting.reach);
+    const bool may_shorten = !model.warps.empty() && length > 2 * tolerance;
+    const RayRanges reach = meeting.reach;
+    if (may_shorten && length < kMuchShorter * longest(rays, parts)) return run(rays, reach);
+    thread_local FieldProgram met, rest;
+    assemble(model, meeting.primitives, met);
+    const FieldBounds bounds = bound_along(model, met, meeting, bundle, rest);
+    if (bounds.value.hi < kIsoValue) return 0;
+    if (may_shorten && std::isinf(bounds.second.lo) && bounds.slope * length > kMostVariation) {
+      RayRanges half = reach;
+      for (std::size_t i = 0; i < RayRanges::kWidth; ++i) half.hi[i] = 0.5 * (reach.lo[i] + reach.hi[i]);
+      const RayLanes first = run(rays, half);
+      half.lo = half.hi;
+      half.hi = reach.hi;
+      return first | run(rays & ~first, half);
+    }
+    return find(rest, bounds, rays, parts, reach);
+  }
+
+ private:
+  RayLanes find(const FieldProgram& program, const FieldBounds& bounds, RayLanes rays, const RayRanges& parts,
+                const RayRanges& reach) const {
+    const double precision = any ? std::numeric_limits<double>::infinity() : kCoarseness * tolerance;
+    RayRanges::Column t;
+    RayLanes hits = search_along(model, program, bounds, bundle, rays, reach, tolerance, precision, any, t);
+    if (any || hits == 0) return hits;
+    // The step to come goes no farther.
+    for_each_lane(hits, [&](std::size_t lane) {
+      if (t[lane] - kLongestStep * tolerance >= limits[lane]) hits &= ~(RayLanes{1} << lane);
+    });
+    if (hits == 0) return 0;
+    const RayLanes polished = polish(model, program, bundle, hits, parts, t, kLongestStep * tolerance, found);
+    // A step that long comes of a ray that grazes, or of a field that bends up.
+    const RayLanes others = hits & ~polished;
+    if (others == 0) return polished;
+    const RayLanes exact = search_along(model, program, bounds, bundle, others, reach, tolerance, tolerance, false, t);
+    polish(model, program, bundle, exact, parts, t, tolerance, found);
+    return polished | exact;
+  }
+
+  double longest(RayLanes rays, const RayRanges& of) const {
+    double length = 0;
+    for_each_lane(rays, [&](std::size_t lane) { length = std::max(length, of.hi[lane] - of.lo[lane]); });
+    return length;
+  }
+};
 
 class ModelCells final : public SurfaceCells {
  public:
@@ -227,16 +303,22 @@ class ModelCells final : public SurfaceCells {
 
   Box box(std::size_t cell) const override { return intersect(box_around(cells_[cell].cylinder()), region_); }
 
-  std::optional<SurfacePoint> first_inside(std::size_t cell, const Ray& ray, const Interval& range, double limit,
-                                           double tolerance) const override {
-    const Interval part = clip_to_cell(cell, ray, range);
-    if (part.empty() || part.lo >= limit) return std::nullopt;
-    return search(primitives_of(cells_[cell]), ray, part, limit, tolerance, false);
+  RayLanes first_inside(std::size_t cell, const RayBundle& bundle, RayLanes rays, const RayRanges::Column& limits,
+                        double tolerance, std::array<SurfacePoint, RayBundle::kWidth>& found) const override {
+    RayRanges parts;
+    RayLanes in_cell = clip_to_cell(cell, bundle, rays, parts);
+    for_each_lane(in_cell, [&](std::size_t lane) {
+      if (parts.lo[lane] >= limits[lane]) in_cell &= ~(RayLanes{1} << lane);
+    });
+    return Search{*model_, primitives_of(cells_[cell]), bundle, limits, tolerance, false, found}.run(in_cell, parts);
   }
-  bool any_inside(std::size_t cell, const Ray& ray, const Interval& range, double tolerance) const override {
-    const Interval part = clip_to_cell(cell, ray, range);
-    constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-    return !part.empty() && search(primitives_of(cells_[cell]), ray, part, kNoLimit, tolerance, true).has_value();
+  RayLanes any_inside(std::size_t cell, const RayBundle& bundle, RayLanes rays, double tolerance) const override {
+    RayRanges parts;
+    const RayLanes in_cell = clip_to_cell(cell, bundle, rays, parts);
+    RayRanges::Column limits;
+    limits.fill(std::numeric_limits<double>::infinity());
+    std::array<SurfacePoint, RayBundle::kWidth> found;
+    return Search{*model_, primitives_of(cells_[cell]), bundle, limits, tolerance, true, found}.run(in_cell, parts);
   }
 
  private:
@@ -274,44 +356,14 @@ class ModelCells final : public SurfaceCells {
     }
   }
 
-  Interval clip_to_cell(std::size_t cell, const Ray& ray, const Interval& range) const {
-    const Interval part = clip(ray, cells_[cell].cylinder(), range);
-    return is_part_ && !part.empty() ? clip(ray, region_, part) : part;
-  }
-
-  // Most of the few primitives that matter in a cell do not matter on the ray. With `any`, any point will do.
-  std::optional<SurfacePoint> search(std::span<const std::uint32_t> primitives, const Ray& ray, const Interval& range,
-                                     double limit, double tolerance, bool any) const {
-    thread_local LineMeeting meeting;
-    meet(*model_, primitives, ray, range, meeting);
-    const Interval reach = meeting.reach;
-    if (reach.empty() || (model_->is_below_sum && meeting.highest_sum < kIsoValue)) return std::nullopt;
-    const double length = reach.hi - reach.lo, middle = 0.5 * (reach.lo + reach.hi);
-    // Under warps only short pieces have good bounds.
-    constexpr double kMuchShorter = 0.7, kMostVariation = 24;
-    const bool may_shorten = !model_->warps.empty() && length > 2 * tolerance;
-    if (may_shorten && length < kMuchShorter * (range.hi - range.lo)) {
-      return search(primitives, ray, reach, limit, tolerance, any);
-    }
-    thread_local FieldProgram met, rest;
-    assemble(*model_, meeting.primitives, met);
-    const FieldBounds bounds = bound_along(*model_, met, meeting, ray, reach, rest);
-    if (bounds.value.hi < kIsoValue) return std::nullopt;
-    if (may_shorten && std::isinf(bounds.second.lo) && bounds.slope * length > kMostVariation) {
-      const std::optional<SurfacePoint> first = search(primitives, ray, {reach.lo, middle}, limit, tolerance, any);
-      return first ? first : search(primitives, ray, {middle, reach.hi}, limit, tolerance, any);
-    }
-    const double precision = any ? std::numeric_limits<double>::infinity() : kCoarseness * tolerance;
-    const std::optional<double> t = search_along(*model_, rest, bounds, ray, reach, tolerance, precision, any);
-    // The step to come goes no farther.
-    if (!t || *t - kLongestStep * tolerance >= limit) return std::nullopt;
-    if (any) return SurfacePoint{*t, Vec3(0)};
-    if (const auto point = polished(*model_, rest, ray, *t, range, kLongestStep * tolerance)) return point;
-    // A step that long comes of a ray that grazes, or of a field that bends up.
-    const std::optional<double> exact = search_along(*model_, rest, bounds, ray, reach, tolerance, tolerance, false);
-    if (!exact) return std::nullopt;
-    const auto point = polished(*model_, rest, ray, *exact, range, tolerance);
-    return point ? point : SurfacePoint{*exact, sample_at(*model_, rest, ray.at(*exact)).gradient};
+  RayLanes clip_to_cell(std::size_t cell, const RayBundle& bundle, RayLanes rays, RayRanges& parts) const {
+    RayLanes in_cell = clip(bundle, rays, cells_[cell].cylinder(), parts);
+    if (!is_part_) return in_cell;
+    for_each_lane(in_cell, [&](std::size_t lane) {
+      parts.set(lane, clip(bundle.ray(lane), region_, parts[lane]));
+      if (parts[lane].empty()) in_cell &= ~(RayLanes{1} << lane);
+    });
+    return in_cell;
   }
 
   std::span<const std::uint32_t> primitives_of(const Cell& cell) const {

@@ -9,12 +9,35 @@ namespace barkridge {
 
 namespace {
 
-// The ray as the callbacks need it, found again through the first member's address.
+// The rays as the callbacks need them, found again through the first member's address.
 struct Query {
   RTCIntersectContext context;
-  const Ray* ray = nullptr;
-  double length = 0;
-  std::optional<SurfacePoint> found;
+  const RayBundle& bundle;
+  RayLanes hits = 0;
+  RayRanges::Column limits;  // where the nearest point yet known is
+  std::array<SurfacePoint, RayBundle::kWidth> found;
+
+  explicit Query(const RayBundle& rays) : bundle(rays) {
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    limits.fill(std::numeric_limits<double>::infinity());
+  }
+};
+
+// Which rays of the bundle a callback is about: Embree may pass on some of a packet only, in an order of its own.
+struct Packet {
+  unsigned width;
+  RayLanes lanes = 0;
+  std::array<unsigned, RayBundle::kWidth> places{};  // in the packet, by lane
+
+  Packet(const int* valid, RTCRayN* rays, unsigned count) : width(count) {
+    for (unsigned i = 0; i < count; ++i) {
+      if (valid[i] == 0) continue;
+      const unsigned lane = RTCRayN_id(rays, count, i);
+      lanes |= RayLanes{1} << lane;
+      places[lane] = i;
+    }
+  }
 };
 
 class FieldScene final : public TracedScene {
@@ -34,15 +57,62 @@ class FieldScene final : public TracedScene {
   std::size_t part_count() const override { return cells_->size(); }
   Box part(std::size_t index) const override { return cells_->box(index); }
 
-  std::optional<Hit> first_hit(const Ray& ray, double length) const override {
-    Query query{{}, &ray, length, {}};
-    rtcInitIntersectContext(&query.context);
-    RTCRayHit rayhit{unit_ray(ray, length), {}};
-    rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(embree(), &query.context, &rayhit);
-    if (!query.found) return std::nullopt;
+  void first_hits(const RayBundle& bundle, std::span<std::optional<Hit>> hits) const override {
+    Query query(bundle);
+    if (bundle.count == 1) {
+      RTCRayHit rayhit{unit_ray(bundle.ray(0), bundle.ranges.hi[0]), {}};
+      rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+      rtcIntersect1(embree(), &query.context, &rayhit);
+    } else {
+      RTCRayHit16 packet;
+      std::fill_n(packet.hit.geomID, RayBundle::kWidth, RTC_INVALID_GEOMETRY_ID);
+      std::fill_n(packet.hit.instID[0], RayBundle::kWidth, RTC_INVALID_GEOMETRY_ID);
+      const Valid valid = fill(bundle, packet.ray);
+      rtcIntersect16(valid.data(), embree(), &query.context, &packet);
+    }
+    for_each_lane(query.hits, [&](std::size_t lane) { hits[lane] = hit_at(bundle.ray(lane), query.found[lane]); });
+  }
 
-    const auto& [t, gradient] = *query.found;
+  RayLanes occluded(const RayBundle& bundle) const override {
+    Query query(bundle);
+    if (bundle.count == 1) {
+      RTCRay unit = unit_ray(bundle.ray(0), bundle.ranges.hi[0]);
+      rtcOccluded1(embree(), &query.context, &unit);
+    } else {
+      RTCRay16 packet;
+      const Valid valid = fill(bundle, packet);
+      rtcOccluded16(valid.data(), embree(), &query.context, &packet);
+    }
+    return query.hits;
+  }
+
+ private:
+  struct alignas(64) Valid : std::array<int, RayBundle::kWidth> {};
+  static_assert(RayBundle::kWidth == 16);
+
+  Valid fill(const RayBundle& bundle, RTCRay16& packet) const {
+    Valid valid;
+    for (std::size_t i = 0; i < RayBundle::kWidth; ++i) {
+      valid[i] = i < bundle.count ? -1 : 0;
+      const RTCRay unit = i < bundle.count ? unit_ray(bundle.ray(i), bundle.ranges.hi[i]) : RTCRay{};
+      packet.org_x[i] = unit.org_x;
+      packet.org_y[i] = unit.org_y;
+      packet.org_z[i] = unit.org_z;
+      packet.tnear[i] = unit.tnear;
+      packet.dir_x[i] = unit.dir_x;
+      packet.dir_y[i] = unit.dir_y;
+      packet.dir_z[i] = unit.dir_z;
+      packet.time[i] = unit.time;
+      packet.tfar[i] = unit.tfar;
+      packet.mask[i] = unit.mask;
+      packet.id[i] = static_cast<unsigned>(i);
+      packet.flags[i] = unit.flags;
+    }
+    return valid;
+  }
+
+  Hit hit_at(const Ray& ray, const SurfacePoint& found) const {
+    const auto& [t, gradient] = found;
     const double slope = glm::length(gradient);
     const bool steep = slope > 0 && std::isfinite(slope);
     const Vec3 normal = steep ? -gradient / slope : -ray.direction;
@@ -52,15 +122,6 @@ class FieldScene final : public TracedScene {
     return Hit{t, ray.at(t), normal, normal, clearance};
   }
 
-  bool occluded(const Ray& ray, double length) const override {
-    Query query{{}, &ray, length, {}};
-    rtcInitIntersectContext(&query.context);
-    RTCRay unit = unit_ray(ray, length);
-    rtcOccluded1(embree(), &query.context, &unit);
-    return unit.tfar < 0;
-  }
-
- private:
   // Boxes are grown, and the reach of rays lengthened, so that Embree need not be robust itself.
   static void bounds_callback(const RTCBoundsFunctionArguments* arguments) {
     const FieldScene& scene = *static_cast<const FieldScene*>(arguments->geometryUserPtr);
@@ -78,25 +139,32 @@ class FieldScene final : public TracedScene {
   // The reach that Embree is given never limits the search within a cell: the result is the least t over all cells,
   // whatever the order in which they are visited.
   static void intersect_callback(const RTCIntersectFunctionNArguments* arguments) {
-    if (!arguments->valid[0]) return;
     const FieldScene& scene = *static_cast<const FieldScene*>(arguments->geometryUserPtr);
     Query& query = *reinterpret_cast<Query*>(arguments->context);
-    const double limit = query.found ? query.found->t : std::numeric_limits<double>::infinity();
-    const std::optional<SurfacePoint> found =
-        scene.cells_->first_inside(arguments->primID, *query.ray, {0, query.length}, limit, scene.tolerance());
-    if (!found || found->t >= limit) return;
-    query.found = found;
-    RTCRay& ray = reinterpret_cast<RTCRayHit*>(arguments->rayhit)->ray;
-    ray.tfar = std::min(ray.tfar, static_cast<float>(found->t * scene.scale() + 2 * kFloatMargin));
+    RTCRayN* const rays = RTCRayHitN_RayN(arguments->rayhit, arguments->N);
+    const Packet packet(arguments->valid, rays, arguments->N);
+    std::array<SurfacePoint, RayBundle::kWidth> found;
+    const RayLanes hits = scene.cells_->first_inside(arguments->primID, query.bundle, packet.lanes, query.limits,
+                                                     scene.tolerance(), found);
+    for_each_lane(hits, [&](std::size_t lane) {
+      if (found[lane].t >= query.limits[lane]) return;
+      query.found[lane] = found[lane];
+      query.limits[lane] = found[lane].t;
+      query.hits |= RayLanes{1} << lane;
+      float& reach = RTCRayN_tfar(rays, packet.width, packet.places[lane]);
+      reach = std::min(reach, static_cast<float>(found[lane].t * scene.scale() + 2 * kFloatMargin));
+    });
   }
 
   static void occluded_callback(const RTCOccludedFunctionNArguments* arguments) {
-    if (!arguments->valid[0]) return;
     const FieldScene& scene = *static_cast<const FieldScene*>(arguments->geometryUserPtr);
-    const Query& query = *reinterpret_cast<const Query*>(arguments->context);
-    if (scene.cells_->any_inside(arguments->primID, *query.ray, {0, query.length}, scene.tolerance())) {
-      reinterpret_cast<RTCRay*>(arguments->ray)->tfar = -std::numeric_limits<float>::infinity();
-    }
+    Query& query = *reinterpret_cast<Query*>(arguments->context);
+    const Packet packet(arguments->valid, arguments->ray, arguments->N);
+    const RayLanes hits = scene.cells_->any_inside(arguments->primID, query.bundle, packet.lanes, scene.tolerance());
+    query.hits |= hits;
+    for_each_lane(hits, [&](std::size_t lane) {
+      RTCRayN_tfar(arguments->ray, packet.width, packet.places[lane]) = -std::numeric_limits<float>::infinity();
+    });
   }
 
   std::unique_ptr<const SurfaceCells> cells_;

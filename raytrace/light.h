@@ -19,6 +19,8 @@ class SunDisc {
  public:
   explicit SunDisc(const Sun& sun);
 
+  /// Whether all directions are the same.
+  bool is_point() const { return one_minus_cosine_ == 0; }
   /// A unit direction towards a place on the disc, uniform over it for uniform `u`.
   Vec3 direction(const glm::dvec2& u) const;
   /// Irradiance on a surface that faces the sun.

@@ -40,7 +40,21 @@ class MeshScene final : public TracedScene {
     return box;
   }
 
-  std::optional<Hit> first_hit(const Ray& ray, double length) const override {
+  void first_hits(const RayBundle& bundle, std::span<std::optional<Hit>> hits) const override {
+    for_each_lane(bundle.lanes(),
+                  [&](std::size_t lane) { hits[lane] = first_hit(bundle.ray(lane), bundle.ranges.hi[lane]); });
+  }
+
+  RayLanes occluded(const RayBundle& bundle) const override {
+    RayLanes rays = 0;
+    for_each_lane(bundle.lanes(), [&](std::size_t lane) {
+      if (is_occluded(bundle.ray(lane), bundle.ranges.hi[lane])) rays |= RayLanes{1} << lane;
+    });
+    return rays;
+  }
+
+ private:
+  std::optional<Hit> first_hit(const Ray& ray, double length) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRayHit rayhit{unit_ray(ray, length), {}};
@@ -65,7 +79,7 @@ class MeshScene final : public TracedScene {
     return Hit{glm::dot(point - ray.origin, ray.direction), point, normal, flat, 64 * tolerance()};
   }
 
-  bool occluded(const Ray& ray, double length) const override {
+  bool is_occluded(const Ray& ray, double length) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRay unit = unit_ray(ray, length);
@@ -73,7 +87,6 @@ class MeshScene final : public TracedScene {
     return unit.tfar < 0;
   }
 
- private:
   std::vector<glm::vec3> positions_, normals_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
 };

@@ -1,5 +1,7 @@
 #include "raytrace/path.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 
@@ -57,12 +59,11 @@ double PathTracer::ground_distance(const Ray& ray) const {
   return std::numeric_limits<double>::infinity();
 }
 
-std::optional<PathTracer::Surface> PathTracer::find_surface(const Ray& ray, const Footprint& footprint,
-                                                            bool meets_solid) const {
-  const double t_ground = ground_distance(ray);
-  if (const std::optional<Hit> hit = meets_solid ? tracer_.first_hit(ray, 0, t_ground) : std::nullopt) {
-    return on_solid(ray, *hit, footprint);
-  }
+// What a ray meets first: the solid where it is hit, or the ground.
+std::optional<PathTracer::Surface> PathTracer::surface_along(const Ray& ray, double t_ground,
+                                                             const std::optional<Hit>& hit,
+                                                             const Footprint& footprint) const {
+  if (hit) return on_solid(ray, *hit, footprint);
   if (!std::isfinite(t_ground)) return std::nullopt;
   Vec3 point = ray.at(t_ground);
   point.y = scene_.ground.height;
@@ -71,35 +72,39 @@ std::optional<PathTracer::Surface> PathTracer::find_surface(const Ray& ray, cons
   return Surface{point, up, ground_, t_ground, up, true, 1 - std::exp(-distance * distance)};
 }
 
-// Whether the sun is seen, past the solid and the ground.
-bool PathTracer::lit_from(const Vec3& start, const Vec3& direction) const {
-  const double above = start.y - scene_.ground.height;
-  if (scene_.ground.enabled && above * direction.y < 0) return false;
-  return !tracer_.occluded({start, direction});
+PathTracer::Sunbeam PathTracer::sunbeam(const Surface& surface, const Vec3& view, const PixelSample& sample,
+                                        Dimension dimension) const {
+  const Vec3 light =
+      sun_.is_point() ? sun_.direction({}) : sun_.direction(sample.sampler->pair(sample.number, dimension));
+  const double above = surface.start.y - scene_.ground.height;
+  if (scene_.ground.enabled && above * light.y < 0) return {light};
+  return {light, surface.scattering.evaluate(surface.normal, view, light) * sun_.irradiance()};
 }
 
-Color PathTracer::from_sun(const Surface& surface, const Vec3& view, const glm::dvec2& u) const {
-  const Vec3 light = sun_.direction(u);
-  const Color scattered = surface.scattering.evaluate(surface.normal, view, light) * sun_.irradiance();
-  if (scattered == Color(0) || !lit_from(surface.start, light)) return Color(0);
-  return scattered;
+Color PathTracer::from_sun(const Surface& surface, const Vec3& view, const PixelSample& sample,
+                           Dimension dimension) const {
+  const Sunbeam beam = sunbeam(surface, view, sample, dimension);
+  if (beam.scattered == Color(0) || tracer_.occluded({surface.start, beam.direction})) return Color(0);
+  return beam.scattered;
 }
 
-Color PathTracer::from_surroundings(const Surface& surface, const Vec3& view, const PixelSampler& sampler,
-                                    int sample) const {
+Color PathTracer::from_surroundings(const Surface& surface, const Vec3& view, const PixelSample& sample) const {
   if (bounces_ == 0) return sky_average_ * surface.scattering.albedo();
-  const double choice = surface.scattering.has_lobe() ? sampler.pair(sample, Dimension::kLobe).x : 0;
+  const auto random = [&](Dimension dimension) { return sample.sampler->pair(sample.number, dimension); };
+  const double choice = surface.scattering.has_lobe() ? random(Dimension::kLobe).x : 0;
   const std::optional<ScatteredDirection> scattered =
-      surface.scattering.sample(surface.normal, view, sampler.pair(sample, Dimension::kBounce), choice);
+      surface.scattering.sample(surface.normal, view, random(Dimension::kBounce), choice);
   if (!scattered || glm::dot(scattered->direction, surface.side) <= 0) return Color(0);
   const Color background = sky_radiance(scene_.sky, scattered->direction);
   const Footprint wide{footprint_.at(surface.t), kScatteredSpread};
-  std::optional<Surface> second = find_surface({surface.start, scattered->direction}, wide, true);
+  const Ray ray{surface.start, scattered->direction};
+  const double t_ground = ground_distance(ray);
+  std::optional<Surface> second = surface_along(ray, t_ground, tracer_.first_hit(ray, 0, t_ground), wide);
   if (!second) return scattered->weight * background;
   second->scattering = dull(second->scattering);
 
   const Color sky = (second->is_ground ? 1 : kSecondSkyShare) * sky_average_ * second->scattering.albedo();
-  const Color sun = from_sun(*second, -scattered->direction, sampler.pair(sample, Dimension::kBounceSun));
+  const Color sun = from_sun(*second, -scattered->direction, sample, Dimension::kBounceSun);
   return scattered->weight * glm::mix(sky + sun, background, second->haze);
 }
 
@@ -108,14 +113,56 @@ std::optional<Radiance> PathTracer::plain_background() const {
   return Radiance{};
 }
 
-Radiance PathTracer::along(const Ray& ray, const PixelSampler& sampler, int sample, bool meets_solid) const {
-  const Radiance background{sky_radiance(scene_.sky, ray.direction), scene_.sky.intensity > 0 ? 1.0 : 0.0};
-  const std::optional<Surface> surface = find_surface(ray, footprint_, meets_solid);
-  if (!surface) return background;
-  const Vec3 view = -ray.direction;
-  const Color color = from_sun(*surface, view, sampler.pair(sample, Dimension::kSun)) +
-                      from_surroundings(*surface, view, sampler, sample);
-  return {glm::mix(color, background.color, surface->haze), glm::mix(1.0, background.alpha, surface->haze)};
+void PathTracer::along(std::span<const PixelSample> samples, std::span<Radiance> radiances) const {
+  for (std::size_t start = 0; start < samples.size(); start += Tracer::kMostTogether) {
+    const std::size_t count = std::min(Tracer::kMostTogether, samples.size() - start);
+    trace_together(samples.subspan(start, count), radiances.subspan(start, count));
+  }
+}
+
+// Scattered rays go everywhere and share nothing: they are traced one by one.
+void PathTracer::trace_together(std::span<const PixelSample> samples, std::span<Radiance> radiances) const {
+  constexpr std::size_t kMost = Tracer::kMostTogether;
+  const std::size_t count = samples.size();
+  std::array<RayPart, kMost> rays;
+  std::array<double, kMost> grounds;
+  std::array<std::optional<Hit>, kMost> hits;
+  for (std::size_t i = 0; i < count; ++i) {
+    grounds[i] = ground_distance(samples[i].ray);
+    // Nothing is to be met where the range is empty.
+    rays[i] = {samples[i].ray, samples[i].meets_solid ? Interval{0, grounds[i]} : Interval{}};
+  }
+  tracer_.first_hits(std::span(rays).first(count), std::span(hits).first(count));
+
+  std::array<std::optional<Surface>, kMost> surfaces;
+  std::array<Sunbeam, kMost> beams;
+  std::array<RayPart, kMost> to_sun;
+  std::array<std::size_t, kMost> lit;
+  std::size_t lit_count = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Ray& ray = samples[i].ray;
+    surfaces[i] = surface_along(ray, grounds[i], hits[i], footprint_);
+    if (!surfaces[i]) continue;
+    beams[i] = sunbeam(*surfaces[i], -ray.direction, samples[i], Dimension::kSun);
+    if (beams[i].scattered == Color(0)) continue;
+    lit[lit_count] = i;
+    to_sun[lit_count++].ray = {surfaces[i]->start, beams[i].direction};
+  }
+  std::array<bool, kMost> in_shadow;
+  tracer_.occluded(std::span(to_sun).first(lit_count), std::span(in_shadow).first(lit_count));
+  for (std::size_t k = 0; k < lit_count; ++k) {
+    if (in_shadow[k]) beams[lit[k]].scattered = Color(0);
+  }
+
+  for (std::size_t i = 0; i < count; ++i) {
+    const Ray& ray = samples[i].ray;
+    const Radiance background{sky_radiance(scene_.sky, ray.direction), scene_.sky.intensity > 0 ? 1.0 : 0.0};
+    radiances[i] = background;
+    if (!surfaces[i]) continue;
+    const Surface& surface = *surfaces[i];
+    const Color color = beams[i].scattered + from_surroundings(surface, -ray.direction, samples[i]);
+    radiances[i] = {glm::mix(color, background.color, surface.haze), glm::mix(1.0, background.alpha, surface.haze)};
+  }
 }
 
 }  // namespace barkridge

@@ -2,6 +2,7 @@
 // The light that comes back along a ray.
 
 #include <optional>
+#include <span>
 
 #include "raytrace/camera.h"
 #include "raytrace/light.h"
@@ -18,6 +19,14 @@ struct Radiance {
   double alpha = 0;
 };
 
+/// A sample of a pixel: a ray through it, and where its random numbers come from.
+struct PixelSample {
+  Ray ray;
+  const PixelSampler* sampler = nullptr;
+  int number = 0;
+  bool meets_solid = true;  ///< false only where it is known that the ray itself meets nothing of the solid
+};
+
 /// Estimates radiance with one path a sample: sunlight with shadows at the first surface, one scattered ray for the sky
 /// and for the surfaces around, which are themselves lit by the sun with shadows and by the sky's average.
 class PathTracer {
@@ -25,9 +34,10 @@ class PathTracer {
   /// `footprint` is that of the rays that `along` is asked about.
   PathTracer(const Tracer& tracer, const RenderScene& scene, const Footprint& footprint, int bounces);
 
-  /// One sample of what arrives at the ray's origin from its direction. `meets_solid` is false only where it is known
-  /// that the ray itself meets nothing of the solid.
-  Radiance along(const Ray& ray, const PixelSampler& sampler, int sample, bool meets_solid) const;
+  /// What arrives at the rays' origins from their directions. Samples of neighbouring pixels share their work: as
+  /// many as a tracer can that follow each other are traced together, and so are the rays towards the sun from what
+  /// they meet.
+  void along(std::span<const PixelSample> samples, std::span<Radiance> radiances) const;
 
   /// Where a ray first meets the solid, if nothing stands before it.
   std::optional<Hit> solid_along(const Ray& ray) const { return tracer_.first_hit(ray, 0, ground_distance(ray)); }
@@ -46,12 +56,20 @@ class PathTracer {
     double haze = 0;  // share of the background in front of it
   };
 
+  // The way to a place on the sun, and what its light brings on from a surface to a viewer if nothing is in the way.
+  struct Sunbeam {
+    Vec3 direction;
+    Color scattered{0};
+  };
+
   double ground_distance(const Ray& ray) const;
-  std::optional<Surface> find_surface(const Ray& ray, const Footprint& footprint, bool meets_solid) const;
+  std::optional<Surface> surface_along(const Ray& ray, double t_ground, const std::optional<Hit>& hit,
+                                       const Footprint& footprint) const;
   Surface on_solid(const Ray& ray, const Hit& hit, const Footprint& footprint) const;
-  Color from_sun(const Surface& surface, const Vec3& view, const glm::dvec2& u) const;
-  Color from_surroundings(const Surface& surface, const Vec3& view, const PixelSampler& sampler, int sample) const;
-  bool lit_from(const Vec3& start, const Vec3& direction) const;
+  Sunbeam sunbeam(const Surface& surface, const Vec3& view, const PixelSample& sample, Dimension dimension) const;
+  Color from_sun(const Surface& surface, const Vec3& view, const PixelSample& sample, Dimension dimension) const;
+  Color from_surroundings(const Surface& surface, const Vec3& view, const PixelSample& sample) const;
+  void trace_together(std::span<const PixelSample> samples, std::span<Radiance> radiances) const;
 
   const Tracer& tracer_;
   const RenderScene& scene_;

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstddef>
 #include <mutex>
+#include <optional>
+#include <vector>
 
 #include "base/large_room.h"
 #include "raytrace/camera.h"
@@ -20,11 +22,13 @@ namespace barkridge {
 
 namespace {
 
-constexpr int kTileSize = 64;
+constexpr int kTileSize = 128;
 // Every pixel gets as many; whether it gets more depends on them and on those of its neighbours.
 constexpr int kFirstSamples = 4;
 // A pixel unlike a neighbour gets at least as many.
 constexpr int kEdgeSamples = 16;
+// Neighbours are sampled together, in squares of at most so many pixels a side: as many rays as a tracer takes at once.
+constexpr int kLargestBlock = 4;
 // Both in display units, where 1 is white and eyes see differences alike: the standard error at which a pixel is done,
 // and the difference that makes neighbours unlike.
 constexpr double kNoiseGoal = 1.0 / 256;
@@ -59,69 +63,160 @@ struct PixelSum {
   }
 };
 
+// The pixels from `first` on, up to `last`, which is not one of them.
+struct PixelRange {
+  glm::ivec2 first, last;
+
+  PixelRange(const glm::ivec2& from, const glm::ivec2& to) : first(from), last(to) {}
+  explicit PixelRange(const PixelRegion& r) : first(r.x, r.y), last(r.x + r.width, r.y + r.height) {}
+
+  glm::ivec2 size() const { return last - first; }
+  PixelRegion region() const { return {first.x, first.y, size().x, size().y}; }
+  bool contains(int x, int y) const { return first.x <= x && x < last.x && first.y <= y && y < last.y; }
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y - first.y) * static_cast<std::size_t>(size().x) +
+           static_cast<std::size_t>(x - first.x);
+  }
+  template <typename Visit>
+  void for_each(const Visit& visit) const {
+    for (int y = first.y; y < last.y; ++y) {
+      for (int x = first.x; x < last.x; ++x) visit(x, y);
+    }
+  }
+};
+
+// Of the pixels of a tile and some around it.
+class PixelSums {
+ public:
+  explicit PixelSums(const PixelRange& pixels)
+      : pixels_(pixels), sums_(static_cast<std::size_t>(pixels.size().x) * static_cast<std::size_t>(pixels.size().y)) {}
+
+  const PixelRange& pixels() const { return pixels_; }
+  PixelSum& at(int x, int y) { return sums_[pixels_.index(x, y)]; }
+  const PixelSum& at(int x, int y) const { return sums_[pixels_.index(x, y)]; }
+
+  // Whether a pixel is unlike one beside it.
+  bool is_edge(int x, int y) const {
+    const double shade = at(x, y).mean_shade();
+    bool edge = false;
+    PixelRange(glm::max(glm::ivec2(x - 1, y - 1), pixels_.first), glm::min(glm::ivec2(x + 2, y + 2), pixels_.last))
+        .for_each([&](int u, int v) { edge = edge || std::abs(at(u, v).mean_shade() - shade) > kUnlike; });
+    return edge;
+  }
+
+ private:
+  PixelRange pixels_;
+  std::vector<PixelSum> sums_;
+};
+
 class TileRenderer {
  public:
   TileRenderer(const Tracer& tracer, const RenderScene& scene, const RenderOptions& options, const PixelRegion& region)
       : options_(options),
+        picture_(PixelRegion{0, 0, options.width, options.height}),
+        block_size_(options.samples_per_pixel < kFirstSamples ? kLargestBlock : 2),
         camera_(scene.camera, options.width, options.height),
         path_(tracer, scene, camera_.footprint(), options.bounces),
         layout_(options.seed, options.width, options.height, options.samples_per_pixel),
-        seen_(tracer, camera_, with_neighbours(region)),
+        seen_(tracer, camera_, sampled_for(PixelRange(region)).region()),
         plain_background_(path_.plain_background()),
         layers_(scene.layers.get()) {}
 
   // Renders the pixels of `tile`, and the first samples of those around it, which decide about further ones.
-  void render(const PixelRegion& tile, Image& image) const {
-    const PixelRegion sampled = options_.samples_per_pixel > kFirstSamples ? with_neighbours(tile) : tile;
-    const int x0 = sampled.x, x1 = sampled.x + sampled.width, y0 = sampled.y, y1 = sampled.y + sampled.height;
-    const std::size_t stride = static_cast<std::size_t>(x1 - x0);
-    std::vector<PixelSum> first(stride * static_cast<std::size_t>(y1 - y0));
-    const auto at = [&](int x, int y) -> PixelSum& {
-      return first[static_cast<std::size_t>(y - y0) * stride + static_cast<std::size_t>(x - x0)];
-    };
-    for (int y = y0; y < y1; ++y) {
-      for (int x = x0; x < x1; ++x) add_samples(x, y, kFirstSamples, at(x, y));
-    }
-    for (int y = tile.y; y < tile.y + tile.height; ++y) {
-      for (int x = tile.x; x < tile.x + tile.width; ++x) {
-        PixelSum sum = at(x, y);
-        bool edge = false;
-        for (int v = std::max(y - 1, y0); v <= std::min(y + 1, y1 - 1) && sum.count < options_.samples_per_pixel; ++v) {
-          for (int u = std::max(x - 1, x0); u <= std::min(x + 1, x1 - 1); ++u) {
-            edge = edge || std::abs(at(u, v).mean_shade() - at(x, y).mean_shade()) > kUnlike;
-          }
-        }
-        if (edge) add_samples(x, y, kEdgeSamples, sum);
-        while (sum.count < options_.samples_per_pixel && sum.error_squared() > kNoiseGoal * kNoiseGoal) {
-          add_samples(x, y, 2 * sum.count, sum);
-        }
+  void render(const PixelRange& tile, Image& image) const {
+    PixelSums first(sampled_for(tile));
+    for_each_block(first.pixels(), [&](const PixelRange& block) {
+      BlockSums sums(block);
+      add_samples(sums, [](const PixelSum&, int, int) { return kFirstSamples; });
+      sums.for_each([&](const PixelSum& sum, int x, int y) { first.at(x, y) = sum; });
+    });
+    for_each_block(tile, [&](const PixelRange& block) {
+      BlockSums sums(block);
+      sums.for_each([&](PixelSum& sum, int x, int y) { sum = first.at(x, y); });
+      finish(sums, first);
+      sums.for_each([&](const PixelSum& sum, int x, int y) {
+        if (!tile.contains(x, y)) return;
         store(sum, x, y, image);
         if (layers_) store_layers(x, y, image);
-      }
-    }
+      });
+    });
   }
 
  private:
-  PixelRegion with_neighbours(const PixelRegion& region) const {
-    const int x = std::max(0, region.x - 1), y = std::max(0, region.y - 1);
-    return {x, y, std::min(options_.width, region.x + region.width + 1) - x,
-            std::min(options_.height, region.y + region.height + 1) - y};
+  // Of the pixels of a block.
+  class BlockSums {
+   public:
+    explicit BlockSums(const PixelRange& pixels) : pixels_(pixels) {}
+
+    template <typename Visit>
+    void for_each(const Visit& visit) {
+      pixels_.for_each([&](int x, int y) { visit(sums_[pixels_.index(x, y)], x, y); });
+    }
+
+   private:
+    PixelRange pixels_;
+    std::array<PixelSum, kLargestBlock * kLargestBlock> sums_;
+  };
+
+  // Pixels are sampled in blocks of the whole picture, so that the rays that are traced together are the same ones
+  // whatever the region and the tiles.
+  template <typename Visit>
+  void for_each_block(const PixelRange& pixels, const Visit& visit) const {
+    const int size = block_size_;
+    PixelRange(pixels.first / size, (pixels.last + size - 1) / size).for_each([&](int x, int y) {
+      visit(PixelRange(size * glm::ivec2(x, y), glm::min(size * glm::ivec2(x + 1, y + 1), picture_.last)));
+    });
   }
 
-  // Goes on until there are `count` samples, or as many as allowed.
-  void add_samples(int x, int y, int count, PixelSum& sum) const {
-    const int wanted = std::min(count, options_.samples_per_pixel);
-    const bool meets_solid = seen_.may_see(x, y);
-    if (!meets_solid && plain_background_) {
-      while (sum.count < wanted) sum.add(*plain_background_);
-      return;
+  // The pixels whose first samples are needed for some: those of their blocks, and of the blocks beside these.
+  PixelRange sampled_for(const PixelRange& pixels) const {
+    const int size = block_size_, margin = options_.samples_per_pixel > kFirstSamples ? size : 0;
+    return {glm::max(size * (pixels.first / size) - margin, glm::ivec2(0)),
+            glm::min(size * ((pixels.last + size - 1) / size) + margin, picture_.last)};
+  }
+
+  void finish(BlockSums& sums, const PixelSums& first) const {
+    add_samples(sums,
+                [&](const PixelSum& sum, int x, int y) { return first.is_edge(x, y) ? kEdgeSamples : sum.count; });
+    const auto until_steady = [](const PixelSum& sum, int, int) {
+      return sum.error_squared() > kNoiseGoal * kNoiseGoal ? 2 * sum.count : sum.count;
+    };
+    while (add_samples(sums, until_steady)) {
     }
-    const PixelSampler sampler(layout_, x, y);
-    while (sum.count < wanted) {
-      const glm::dvec2 u = sampler.pair(sum.count, Dimension::kPixel);
-      const Ray ray = camera_.through(x + 0.5 + tent(u.x), y + 0.5 + tent(u.y));
-      sum.add(path_.along(ray, sampler, sum.count, meets_solid));
-    }
+  }
+
+  // Goes on until every pixel has as many samples as are wanted of it, or as many as allowed; returns whether any were
+  // missing.
+  template <typename Wanted>
+  bool add_samples(BlockSums& sums, const Wanted& wanted) const {
+    thread_local std::vector<PixelSample> samples;
+    thread_local std::vector<PixelSum*> owners;
+    thread_local std::vector<Radiance> radiances;
+    samples.clear();
+    owners.clear();
+    std::array<std::optional<PixelSampler>, kLargestBlock * kLargestBlock> samplers;
+    std::size_t pixel = 0;
+    bool any = false;
+    sums.for_each([&](PixelSum& sum, int x, int y) {
+      const int count = std::min(wanted(sum, x, y), options_.samples_per_pixel);
+      if (sum.count >= count) return;
+      any = true;
+      const bool meets_solid = seen_.may_see(x, y);
+      if (!meets_solid && plain_background_) {
+        while (sum.count < count) sum.add(*plain_background_);
+        return;
+      }
+      const PixelSampler& sampler = samplers[pixel++].emplace(layout_, x, y);
+      for (int number = sum.count; number < count; ++number) {
+        const glm::dvec2 u = sampler.pair(number, Dimension::kPixel);
+        samples.push_back({camera_.through(x + 0.5 + tent(u.x), y + 0.5 + tent(u.y)), &sampler, number, meets_solid});
+        owners.push_back(&sum);
+      }
+    });
+    radiances.resize(samples.size());
+    path_.along(samples, radiances);
+    for (std::size_t i = 0; i < samples.size(); ++i) owners[i]->add(radiances[i]);
+    return any;
   }
 
   // Importance sampling of the pixel filter, a tent one pixel to either side: a sample belongs to one pixel only.
@@ -153,6 +248,8 @@ class TileRenderer {
   }
 
   const RenderOptions& options_;
+  PixelRange picture_;
+  int block_size_;
   CameraRays camera_;
   PathTracer path_;
   SampleLayout layout_;
@@ -203,7 +300,7 @@ Image render_traced(const Tracer& tracer, const RenderScene& scene, const Render
             const int x = column * kTileSize, y = row * kTileSize;
             const PixelRegion tile{region.x + x, region.y + y, std::min(kTileSize, region.width - x),
                                    std::min(kTileSize, region.height - y)};
-            renderer.render(tile, image);
+            renderer.render(PixelRange(tile), image);
             progress.add(static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height));
           }
         }

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "blobtree/field.h"
 #include "mesh/mesh.h"
@@ -21,9 +22,9 @@ class TracedScene {
   virtual std::size_t part_count() const = 0;
   virtual Box part(std::size_t index) const = 0;
 
-  /// As `Tracer` has them, for a ray that starts in `box()` and for t in [0, length].
-  virtual std::optional<Hit> first_hit(const Ray& ray, double length) const = 0;
-  virtual bool occluded(const Ray& ray, double length) const = 0;
+  /// As `Tracer` has them, for rays that start in `box()` and for t in their ranges, which start at 0.
+  virtual void first_hits(const RayBundle& bundle, std::span<std::optional<Hit>> hits) const = 0;
+  virtual RayLanes occluded(const RayBundle& bundle) const = 0;
 
   const Box& box() const { return box_; }
   double tolerance() const { return 0x1p-24 * box_.diagonal(); }

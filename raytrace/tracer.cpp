@@ -1,22 +1,30 @@
 #include "raytrace/tracer.h"
 
+#include <algorithm>
+#include <array>
+
 #include "raytrace/traced_scene.h"
 
 namespace barkridge {
 
 namespace {
 
-// The ray from where it enters the scene's box: t counts from there and is precise for rays from afar.
-struct Entry {
-  Ray ray;
-  Interval range;
+// Rays from where they enter the scene's box: t counts from there and is precise for rays from afar.
+struct Entries {
+  RayBundle bundle;
+  std::array<double, RayBundle::kWidth> starts;
+  std::array<std::size_t, RayBundle::kWidth> numbers;  // of those that enter
 
-  Entry(const TracedScene& scene, const Ray& whole, double t_min, double t_max) {
+  Entries(const TracedScene& scene, std::span<const RayPart> rays) {
     if (scene.box().empty()) return;
-    range = clip(whole, scene.box(), {t_min, t_max});
-    if (!range.empty()) ray = {whole.at(range.lo), whole.direction};
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const Interval range = clip(rays[i].ray, scene.box(), rays[i].range);
+      if (range.empty()) continue;
+      starts[bundle.count] = range.lo;
+      numbers[bundle.count] = i;
+      bundle.add({rays[i].ray.at(range.lo), rays[i].ray.direction}, {0, range.hi - range.lo});
+    }
   }
-  double length() const { return range.hi - range.lo; }
 };
 
 }  // namespace
@@ -39,16 +47,38 @@ const Box& Tracer::scene_box() const { return scene_->box(); }
 double Tracer::tolerance() const { return scene_->tolerance(); }
 
 std::optional<Hit> Tracer::first_hit(const Ray& ray, double t_min, double t_max) const {
-  const Entry entry(*scene_, ray, t_min, t_max);
-  if (entry.range.empty()) return std::nullopt;
-  std::optional<Hit> hit = scene_->first_hit(entry.ray, entry.length());
-  if (hit) hit->t += entry.range.lo;
+  const RayPart part{ray, {t_min, t_max}};
+  std::optional<Hit> hit;
+  first_hits({&part, 1}, {&hit, 1});
   return hit;
 }
 
 bool Tracer::occluded(const Ray& ray, double t_min, double t_max) const {
-  const Entry entry(*scene_, ray, t_min, t_max);
-  return !entry.range.empty() && scene_->occluded(entry.ray, entry.length());
+  const RayPart part{ray, {t_min, t_max}};
+  bool is_occluded = false;
+  occluded({&part, 1}, {&is_occluded, 1});
+  return is_occluded;
+}
+
+void Tracer::first_hits(std::span<const RayPart> rays, std::span<std::optional<Hit>> hits) const {
+  std::fill(hits.begin(), hits.end(), std::nullopt);
+  const Entries entries(*scene_, rays);
+  if (entries.bundle.count == 0) return;
+  std::array<std::optional<Hit>, RayBundle::kWidth> found;
+  scene_->first_hits(entries.bundle, found);
+  for (std::size_t i = 0; i < entries.bundle.count; ++i) {
+    if (!found[i]) continue;
+    found[i]->t += entries.starts[i];
+    hits[entries.numbers[i]] = found[i];
+  }
+}
+
+void Tracer::occluded(std::span<const RayPart> rays, std::span<bool> are_occluded) const {
+  std::fill(are_occluded.begin(), are_occluded.end(), false);
+  const Entries entries(*scene_, rays);
+  if (entries.bundle.count == 0) return;
+  for_each_lane(scene_->occluded(entries.bundle),
+                [&](std::size_t lane) { are_occluded[entries.numbers[lane]] = true; });
 }
 
 }  // namespace barkridge

@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "base/progress.h"
 #include "blobtree/field.h"
@@ -25,6 +26,12 @@ struct Hit {
   double clearance = 0;
 
   Vec3 outside_point() const { return point + clearance * outward; }
+};
+
+/// A ray, where it matters.
+struct RayPart {
+  Ray ray;
+  Interval range{0, std::numeric_limits<double>::infinity()};
 };
 
 class TracedScene;
@@ -49,6 +56,12 @@ class Tracer {
 
   /// Whether `first_hit` would find something. Cheaper.
   bool occluded(const Ray& ray, double t_min = 0, double t_max = std::numeric_limits<double>::infinity()) const;
+
+  /// Up to `kMostTogether` rays at once that lie near each other, like those of neighbouring pixels: several times
+  /// cheaper than one by one. What is found depends, within the tolerance, on which rays are traced together.
+  static constexpr std::size_t kMostTogether = RayBundle::kWidth;
+  void first_hits(std::span<const RayPart> rays, std::span<std::optional<Hit>> hits) const;
+  void occluded(std::span<const RayPart> rays, std::span<bool> are_occluded) const;
 
   /// Boxes that together hold all that there is to meet: a field's cells, a mesh's triangles.
   std::size_t part_count() const;
