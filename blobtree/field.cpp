@@ -10,10 +10,8 @@ namespace barkridge {
 
 namespace {
 
-// Where on a ray does not matter.
-constexpr double kAnywhere = std::numeric_limits<double>::infinity();
-
-std::optional<double> search(const Field& field, const Ray& ray, const Interval& range, double tolerance, bool any) {
+std::optional<double> search(const Field& field, const Ray& ray, const Interval& range, double tolerance,
+                             SearchAim aim) {
   const Vec3 a = ray.at(range.lo), b = ray.at(range.hi);
   const FieldBounds bounds = field.bounds({glm::min(a, b), glm::max(a, b)});
   if (bounds.value.hi < kIsoValue) return std::nullopt;
@@ -21,8 +19,8 @@ std::optional<double> search(const Field& field, const Ray& ray, const Interval&
   constexpr double kMostVariation = 8;
   const double length = range.hi - range.lo, middle = 0.5 * (range.lo + range.hi);
   if (bounds.slope * length > kMostVariation && length > 2 * tolerance) {
-    const std::optional<double> first = search(field, ray, {range.lo, middle}, tolerance, any);
-    return first ? first : search(field, ray, {middle, range.hi}, tolerance, any);
+    const std::optional<double> first = search(field, ray, {range.lo, middle}, tolerance, aim);
+    return first ? first : search(field, ray, {middle, range.hi}, tolerance, aim);
   }
   const auto sample = [&](const Interval& part, std::array<double, 16>& values) {
     std::array<Vec3, 16> points;
@@ -30,7 +28,8 @@ std::optional<double> search(const Field& field, const Ray& ray, const Interval&
     for (std::size_t i = 0; i < points.size(); ++i) points[i] = ray.at(part.lo + static_cast<double>(i) * step);
     field.values(points, values);
   };
-  return RaySearch<double, decltype(sample)>(sample, bounds, tolerance, any ? kAnywhere : tolerance, any).run(range);
+  const std::optional<RayRoot> root = RaySearch<double, decltype(sample)>(sample, bounds, tolerance, aim).run(range);
+  return root ? std::optional(root->t) : std::nullopt;
 }
 
 // The whole support as one cell.
@@ -45,7 +44,7 @@ class SingleCell final : public SurfaceCells {
                         std::array<SurfacePoint, RayBundle::kWidth>& found) const override {
     RayLanes hits = 0;
     for_each_lane(rays, [&](std::size_t lane) {
-      const std::optional<double> t = search_part(bundle, lane, tolerance, false);
+      const std::optional<double> t = search_part(bundle, lane, tolerance, SearchAim::kFirstPoint);
       if (!t) return;
       const Vec3 point = bundle.ray(lane).at(*t);
       double value = 0;
@@ -59,16 +58,16 @@ class SingleCell final : public SurfaceCells {
   RayLanes any_inside(std::size_t, const RayBundle& bundle, RayLanes rays, double tolerance) const override {
     RayLanes hits = 0;
     for_each_lane(rays, [&](std::size_t lane) {
-      if (search_part(bundle, lane, tolerance, true)) hits |= RayLanes{1} << lane;
+      if (search_part(bundle, lane, tolerance, SearchAim::kAnyPoint)) hits |= RayLanes{1} << lane;
     });
     return hits;
   }
 
  private:
-  std::optional<double> search_part(const RayBundle& bundle, std::size_t lane, double tolerance, bool any) const {
+  std::optional<double> search_part(const RayBundle& bundle, std::size_t lane, double tolerance, SearchAim aim) const {
     const Ray ray = bundle.ray(lane);
     const Interval part = clip(ray, box_, bundle.ranges[lane]);
-    return part.empty() ? std::nullopt : search(*field_, ray, part, tolerance, any);
+    return part.empty() ? std::nullopt : search(*field_, ray, part, tolerance, aim);
   }
 
   std::shared_ptr<const Field> field_;

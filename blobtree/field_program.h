@@ -2,6 +2,7 @@
 // What matters of a model in some region, as a short program for a stack machine. One walk over it evaluates a batch of
 // points, another bounds a box and writes the program that is left of it there; the two read alike.
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -10,6 +11,7 @@
 #include "blobtree/cone_record.h"
 #include "blobtree/field.h"
 #include "blobtree/ray_bundle.h"
+#include "blobtree/ray_search.h"
 
 namespace barkridge {
 
@@ -75,12 +77,11 @@ std::size_t primitive_count_of(const FieldProgram& program);
 void evaluate(const FieldModel& model, const FieldProgram& program, std::span<const Vec3> points,
               std::span<double> values, std::span<Vec3> gradients);
 
-/// The smallest t in the range of each of some rays with F >= kIsoValue, or with `any` any such t, as RaySearch finds
-/// it: in single precision about the range's middle. Returns the rays that have one. `bounds` are the program's on all
-/// the ranges.
+/// What RaySearch finds in the ranges of some rays, in single precision about each one's middle. Returns the rays that
+/// have such a point. `bounds` are the program's on all the ranges.
 RayLanes search_along(const FieldModel& model, const FieldProgram& program, const FieldBounds& bounds,
-                      const RayBundle& bundle, RayLanes rays, const RayRanges& ranges, double tolerance,
-                      double precision, bool any, RayRanges::Column& found);
+                      const RayBundle& bundle, RayLanes rays, const RayRanges& ranges, double tolerance, SearchAim aim,
+                      std::array<RayRoot, RayBundle::kWidth>& found);
 
 /// Bounds on a box; and, where `rest` is given, the program of all that can matter there, whose values and gradients in
 /// the box are those of `program` to the bit.

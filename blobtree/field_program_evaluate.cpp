@@ -8,7 +8,6 @@
 #include "blobtree/bend_kernels.h"
 #include "blobtree/operator_kernels.h"
 #include "blobtree/primitive.h"
-#include "blobtree/ray_search.h"
 
 namespace barkridge {
 
@@ -347,7 +346,7 @@ void evaluate(const FieldModel& model, const FieldProgram& program, std::span<co
 
 namespace {
 
-constexpr std::size_t kSearchSamples = kBatchGranule;
+static_assert(kSearchSamples == kBatchGranule);
 
 // Samples of a program along a ray, by parameters of the ray.
 class RaySampler {
@@ -385,16 +384,16 @@ class RaySampler {
 }  // namespace
 
 RayLanes search_along(const FieldModel& model, const FieldProgram& program, const FieldBounds& bounds,
-                      const RayBundle& bundle, RayLanes rays, const RayRanges& ranges, double tolerance,
-                      double precision, bool any, RayRanges::Column& found) {
+                      const RayBundle& bundle, RayLanes rays, const RayRanges& ranges, double tolerance, SearchAim aim,
+                      std::array<RayRoot, RayBundle::kWidth>& found) {
   Machine machine(model, program, kSearchSamples, false, scratch_of_thread());
   RayLanes hits = 0;
   for_each_lane(rays, [&](std::size_t lane) {
     const RaySampler sampler(machine, model, bundle.ray(lane), ranges[lane]);
-    const RaySearch<float, RaySampler> search(sampler, bounds, tolerance, precision, any);
-    const std::optional<double> t = search.run(ranges[lane]);
-    if (!t) return;
-    found[lane] = *t;
+    const RaySearch<float, RaySampler> search(sampler, bounds, tolerance, aim);
+    const std::optional<RayRoot> root = search.run(ranges[lane]);
+    if (!root) return;
+    found[lane] = *root;
     hits |= RayLanes{1} << lane;
   });
   return hits;

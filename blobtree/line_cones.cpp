@@ -143,9 +143,9 @@ class Meeter {
   }
 
   void run(LineMeeting& meeting) {
-    // By whichever takes fewer calls: a ray with many cones, or a cone with many rays.
+    // By whichever takes fewer calls: a ray with many cones, or a cone with many rays, which is placed but once.
     const auto rays = static_cast<std::size_t>(std::popcount(rays_));
-    if (rays * ((primitives_.size() + kWidth - 1) / kWidth) <= primitives_.size()) {
+    if (2 * rays * ((primitives_.size() + kWidth - 1) / kWidth) <= primitives_.size() + 1) {
       meet_by_ray();
     } else {
       meet_by_cone();

@@ -184,20 +184,15 @@ class Planner {
   std::vector<std::uint8_t> overlaps_;
 };
 
-// What a search is asked for before a step of Newton's method does the rest, in units of the tolerance.
-constexpr double kCoarseness = 16;
-// The step may be longer where the field bends up, whose chords are bounded by nothing.
-constexpr double kLongestStep = 4 * kCoarseness;
-
-// The roots on rays after the step, whose error is quadratic in what was left, and the gradients there; returns those
-// whose step would not be longer than `longest`.
+// The roots on rays after a step of Newton's method, and the gradients where it was taken; returns those whose step was
+// not too long.
 RayLanes polish(const FieldModel& model, const FieldProgram& program, const RayBundle& bundle, RayLanes rays,
-                const RayRanges& ranges, const RayRanges::Column& t, double longest,
+                const RayRanges& ranges, const std::array<RayRoot, RayBundle::kWidth>& roots,
                 std::array<SurfacePoint, RayBundle::kWidth>& found) {
   std::array<Vec3, RayBundle::kWidth> points, gradients;
   std::array<double, RayBundle::kWidth> values;
   std::size_t count = 0;
-  for_each_lane(rays, [&](std::size_t lane) { points[count++] = bundle.ray(lane).at(t[lane]); });
+  for_each_lane(rays, [&](std::size_t lane) { points[count++] = bundle.ray(lane).at(roots[lane].t); });
   evaluate(model, program, std::span(points).first(count), std::span(values).first(count),
            std::span(gradients).first(count));
   RayLanes done = 0;
@@ -205,11 +200,12 @@ RayLanes polish(const FieldModel& model, const FieldProgram& program, const RayB
   for_each_lane(rays, [&](std::size_t lane) {
     const std::size_t i = next++;
     const Interval range = ranges[lane];
-    found[lane] = {t[lane], gradients[i]};
-    if (t[lane] > range.lo) {
+    const double t = roots[lane].t;
+    found[lane] = {t, gradients[i]};
+    if (t > range.lo) {
       const double step = (kIsoValue - values[i]) / glm::dot(gradients[i], bundle.ray(lane).direction);
-      if (!(std::abs(step) <= longest)) return;
-      found[lane].t = std::clamp(t[lane] + step, range.lo, range.hi);
+      if (!(std::abs(step) <= roots[lane].longest_step)) return;
+      found[lane].t = std::clamp(t + step, range.lo, range.hi);
     }
     done |= RayLanes{1} << lane;
   });
@@ -257,21 +253,22 @@ struct Search {
  private:
   RayLanes find(const FieldProgram& program, const FieldBounds& bounds, RayLanes rays, const RayRanges& parts,
                 const RayRanges& reach) const {
-    const double precision = any ? std::numeric_limits<double>::infinity() : kCoarseness * tolerance;
-    RayRanges::Column t;
-    RayLanes hits = search_along(model, program, bounds, bundle, rays, reach, tolerance, precision, any, t);
-    if (any || hits == 0) return hits;
-    // The step to come goes no farther.
+    std::array<RayRoot, RayBundle::kWidth> roots;
+    const auto search = [&](RayLanes some, SearchAim aim) {
+      return search_along(model, program, bounds, bundle, some, reach, tolerance, aim, roots);
+    };
+    if (any) return search(rays, SearchAim::kAnyPoint);
+    RayLanes hits = search(rays, SearchAim::kBeforeNewton);
     for_each_lane(hits, [&](std::size_t lane) {
-      if (t[lane] - kLongestStep * tolerance >= limits[lane]) hits &= ~(RayLanes{1} << lane);
+      if (roots[lane].t - roots[lane].longest_step >= limits[lane]) hits &= ~(RayLanes{1} << lane);
     });
     if (hits == 0) return 0;
-    const RayLanes polished = polish(model, program, bundle, hits, parts, t, kLongestStep * tolerance, found);
-    // A step that long comes of a ray that grazes, or of a field that bends up.
+    const RayLanes polished = polish(model, program, bundle, hits, parts, roots, found);
+    // A step that is too long comes of a ray that grazes, or of a field that bends up.
     const RayLanes others = hits & ~polished;
     if (others == 0) return polished;
-    const RayLanes exact = search_along(model, program, bounds, bundle, others, reach, tolerance, tolerance, false, t);
-    polish(model, program, bundle, exact, parts, t, tolerance, found);
+    const RayLanes exact = search(others, SearchAim::kFirstPoint);
+    polish(model, program, bundle, exact, parts, roots, found);
     return polished | exact;
   }
 

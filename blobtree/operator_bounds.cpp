@@ -150,8 +150,10 @@ FieldBounds bounds_of(const Contact& contact, std::span<const FieldBounds> child
   const auto of_others = [](double sum, double own) { return std::max(0.0, sum - own); };
   FieldBounds result{{kInfinity, -kInfinity}, 0};
   result.second.lo = lowest_second(children) - all.second;
+  std::size_t candidates = 0;
   for (const FieldBounds& child : children) {
     if (child.value.hi < highest_lo) continue;
+    ++candidates;
     const Effect own = effect_of(child);
     const double compression = of_others(all.compression, own.compression);
     const double pressed =
@@ -161,7 +163,10 @@ FieldBounds bounds_of(const Contact& contact, std::span<const FieldBounds> child
     result.value.lo = std::min(result.value.lo, pressed + expansion.lo - kRounding * all.lowest_expansion);
     result.value.hi = std::max(result.value.hi, child.value.hi + expansion.hi + kRounding * all.highest_expansion);
     result.slope = std::max(result.slope, child.slope + of_others(all.slope, own.slope) + kRounding * all.slope);
+    result.second.hi = child.second.hi + all.second;
   }
+  // Where another becomes the highest there is a crease.
+  if (candidates > 1) result.second.hi = kInfinity;
   return result;
 }
 

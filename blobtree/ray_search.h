@@ -3,89 +3,116 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cmath>
 #include <optional>
 
 #include "blobtree/field.h"
+#include "blobtree/search_kernels.h"
 
 namespace barkridge {
 
-/// The smallest t in a range with F >= kIsoValue, or none; with `any`, any such t. `sample(range, values)` gives F at
-/// equal distances along a range, ends included. t is exact to `precision` where F bends no more upward than downward;
-/// what is thinner than `tolerance` along the ray or exceeds the iso-value by no more than rounding may be missed,
-/// nothing else.
+/// What a search is for.
+enum class SearchAim {
+  kAnyPoint,     ///< whether there is one
+  kFirstPoint,   ///< exact to the tolerance
+  kBeforeNewton  ///< good enough that one step of Newton's method makes it exact to the tolerance
+};
+
+/// What a search finds: the first point, or, before Newton, a place near it.
+struct RayRoot {
+  double t = 0;
+  /// A step that is longer than this shows that the place was not that near.
+  double longest_step = 0;
+};
+
+/// The smallest t in a range with F >= kIsoValue, or none. `sample(range, values)` gives F at equal distances along a
+/// range, ends included. t is exact to `tolerance` where F bends no more upward than downward; what is thinner than
+/// `tolerance` along the ray or exceeds the iso-value by no more than rounding may be missed, nothing else.
 ///
 /// Where F's bounds rule out that it reaches the iso-value between two samples, that is settled; elsewhere the piece
 /// between them is sampled in turn, first pieces first. As the slope bounds F between samples to first order in their
-/// distance and the second derivative to second order, two rounds are enough for most rays that do not graze.
-/// [after Galin et al. 2020, "Segment Tracing Using Local Lipschitz Bounds"]
+/// distance and the second derivative to second order, two rounds are enough for most rays that do not graze, and one
+/// or two before Newton. [after Galin et al. 2020, "Segment Tracing Using Local Lipschitz Bounds"]
 template <typename Real, typename Sample>
 class RaySearch {
  public:
-  static constexpr std::size_t kSamples = 16;  // a vector's worth a round
-  using Samples = std::array<Real, kSamples>;
+  using Samples = std::array<Real, kSearchSamples>;
 
-  RaySearch(const Sample& sample, const FieldBounds& bounds, double tolerance, double precision, bool any)
+  RaySearch(const Sample& sample, const FieldBounds& bounds, double tolerance, SearchAim aim)
       : sample_(sample),
         slope_(bounds.slope),
         lowest_second_(bounds.second.lo),
+        largest_second_(std::max(-bounds.second.lo, bounds.second.hi)),
         tolerance_(tolerance),
-        precision_(precision),
-        any_(any) {}
+        aim_(aim) {}
 
-  std::optional<double> run(const Interval& range) const {
+  std::optional<RayRoot> run(const Interval& range) const {
     constexpr Real kIso = static_cast<Real>(kIsoValue);
     Samples f;
     sample_(range, f);
-    if (any_) {
-      const std::size_t inside = first_above(f, kSamples);
-      if (inside < kSamples) return at(range, inside);
-    }
     const double h = (range.hi - range.lo) / kPieces;
     // How far the field can rise between two samples: above their mean, and above the larger of them.
     const double over_mean = 0.5 * slope_ * h, over_larger = -0.125 * lowest_second_ * h * h;
     const bool is_noise = std::min(over_mean, over_larger) < kNoise || h <= tolerance_;
-    // At least what is reached in each piece.
-    const auto mean_rise = static_cast<Real>(over_mean), larger_rise = static_cast<Real>(over_larger);
-    Samples highest;
-    for (std::size_t i = 0; i < kPieces; ++i) {
-      const Real larger = std::max(f[i], f[i + 1]);
-      highest[i] = std::max(std::min(Real{0.5} * (f[i] + f[i + 1]) + mean_rise, larger + larger_rise), larger);
+    const SearchRound round = settle(f, kIso, static_cast<Real>(over_mean), static_cast<Real>(over_larger));
+    const auto is_inside = [&](std::size_t i) { return (round.inside >> i & 1) != 0; };
+    const auto is_open = [&](std::size_t piece) { return (round.open >> piece & 1) != 0; };
+    if (aim_ == SearchAim::kAnyPoint && round.inside != 0) {
+      return root(range, static_cast<std::size_t>(std::countr_zero(round.inside)));
     }
-    highest[kPieces] = f[kPieces];
-    for (std::size_t i = first_above(highest, kSamples); i < kPieces; ++i) {
-      if (highest[i] < kIso) continue;
-      if (f[i] >= kIso) return at(range, i);
-      const auto crosses = [&](std::size_t piece) { return f[piece + 1] >= kIso; };
-      if (!crosses(i) && is_noise) continue;
-      if (crosses(i)) {
+    unsigned left = round.open;
+    while (left != 0) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(left));
+      if (is_inside(i)) return root(range, i);
+      if (is_inside(i + 1)) {
         const double rise = static_cast<double>(f[i + 1] - f[i]);
-        if (is_noise || over_larger * h <= precision_ * rise) {
-          return at(range, i) + h * (static_cast<double>(kIso - f[i]) / rise);
+        if (const std::optional<double> off = distance_to_root(rise, h, over_larger, is_noise)) {
+          return RayRoot{at(range, i) + h * (static_cast<double>(kIso - f[i]) / rise), *off};
         }
+      } else if (is_noise) {
+        left &= left - 1;
+        continue;
       }
       // Neighbours that are not settled share a round.
       std::size_t last = i;
-      while (!crosses(last) && last + 1 < std::min(kPieces, i + kMostTogether) && highest[last + 1] >= kIso) ++last;
-      if (const std::optional<double> hit = run({at(range, i), at(range, last + 1)})) return hit;
-      if (crosses(last)) return at(range, last + 1);  // by rounding only
-      i = last;
+      while (!is_inside(last + 1) && last + 1 < std::min(kPieces, i + kMostTogether) && is_open(last + 1)) ++last;
+      if (const std::optional<RayRoot> hit = run({at(range, i), at(range, last + 1)})) return hit;
+      if (is_inside(last + 1)) return root(range, last + 1);  // by rounding only
+      left &= ~0u << (last + 1);
     }
-    if (f[kPieces] >= kIso) return range.hi;
+    if (is_inside(kPieces)) return RayRoot{range.hi, longest_step()};
     return std::nullopt;
   }
 
  private:
-  static constexpr std::size_t kPieces = kSamples - 1;
+  static constexpr std::size_t kPieces = kSearchSamples - 1;
   static constexpr std::size_t kMostTogether = 5;  // so that every round tells three times more
   // Values in single precision may be off by as much: what could exceed the iso-value by less is not told from it.
   static constexpr double kNoise = 1e-6;
+  // Before Newton, in units of the tolerance, where nothing bounds how the field bends up: how near the chord's root
+  // must be if it bends up as it bends down, and how long a step shows that it does so much more.
+  static constexpr double kCoarseness = 16;
+  static constexpr double kLongestStep = 4 * kCoarseness;
 
-  static std::size_t first_above(const Samples& f, std::size_t none) {
-    for (std::size_t i = 0; i < kSamples; ++i) {
-      if (f[i] >= static_cast<Real>(kIsoValue)) return i;
-    }
-    return none;
+  double longest_step() const { return aim_ == SearchAim::kBeforeNewton ? kLongestStep * tolerance_ : tolerance_; }
+
+  // How far the root of a chord that rises by `rise` along `h` may be from the field's, if that is near enough.
+  std::optional<double> distance_to_root(double rise, double h, double over_larger, bool is_noise) const {
+    if (aim_ == SearchAim::kAnyPoint || is_noise) return longest_step();
+    const double precision = aim_ == SearchAim::kBeforeNewton ? kCoarseness * tolerance_ : tolerance_;
+    if (over_larger * h <= precision * rise) return longest_step();
+    if (aim_ != SearchAim::kBeforeNewton || !std::isfinite(largest_second_)) return std::nullopt;
+    // The chord is off the field by at most M h^2 / 8, so its root by e = that over the least slope; Newton's step
+    // leaves M e^2 / 2 over the least slope.
+    const double least_slope = rise / h - largest_second_ * h;
+    if (!(least_slope > 0)) return std::nullopt;
+    const double off = 0.125 * largest_second_ * h * h / least_slope;
+    if (0.5 * largest_second_ * off * off > tolerance_ * least_slope) return std::nullopt;
+    return std::max(2 * off, longest_step());
   }
+
+  RayRoot root(const Interval& range, std::size_t i) const { return {at(range, i), longest_step()}; }
 
   static double at(const Interval& range, std::size_t i) {
     return range.lo + static_cast<double>(i) * ((range.hi - range.lo) / kPieces);
@@ -93,10 +120,9 @@ class RaySearch {
 
   const Sample& sample_;
   double slope_;
-  double lowest_second_;
+  double lowest_second_, largest_second_;
   double tolerance_;
-  double precision_;
-  bool any_;
+  SearchAim aim_;
 };
 
 }  // namespace barkridge

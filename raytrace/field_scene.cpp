@@ -24,20 +24,28 @@ struct Query {
   }
 };
 
-// Which rays of the bundle a callback is about: Embree may pass on some of a packet only, in an order of its own.
+// Which rays of the bundle a callback is about: Embree may pass on some of a packet only.
 struct Packet {
+  RTCRayN* rays;
   unsigned width;
   RayLanes lanes = 0;
-  std::array<unsigned, RayBundle::kWidth> places{};  // in the packet, by lane
 
-  Packet(const int* valid, RTCRayN* rays, unsigned count) : width(count) {
+  Packet(const int* valid, RTCRayN* of, unsigned count) : rays(of), width(count) {
     for (unsigned i = 0; i < count; ++i) {
-      if (valid[i] == 0) continue;
-      const unsigned lane = RTCRayN_id(rays, count, i);
-      lanes |= RayLanes{1} << lane;
-      places[lane] = i;
+      lanes |= (valid[i] != 0 ? RayLanes{1} : 0) << (is_whole() ? i : RTCRayN_id(rays, width, i));
     }
   }
+
+  float& reach(std::size_t lane) const {
+    auto i = static_cast<unsigned>(lane);
+    if (!is_whole()) {
+      for (i = 0; RTCRayN_id(rays, width, i) != lane;) ++i;
+    }
+    return RTCRayN_tfar(rays, width, i);
+  }
+
+ private:
+  bool is_whole() const { return width == RayBundle::kWidth; }
 };
 
 class FieldScene final : public TracedScene {
@@ -141,8 +149,7 @@ class FieldScene final : public TracedScene {
   static void intersect_callback(const RTCIntersectFunctionNArguments* arguments) {
     const FieldScene& scene = *static_cast<const FieldScene*>(arguments->geometryUserPtr);
     Query& query = *reinterpret_cast<Query*>(arguments->context);
-    RTCRayN* const rays = RTCRayHitN_RayN(arguments->rayhit, arguments->N);
-    const Packet packet(arguments->valid, rays, arguments->N);
+    const Packet packet(arguments->valid, RTCRayHitN_RayN(arguments->rayhit, arguments->N), arguments->N);
     std::array<SurfacePoint, RayBundle::kWidth> found;
     const RayLanes hits = scene.cells_->first_inside(arguments->primID, query.bundle, packet.lanes, query.limits,
                                                      scene.tolerance(), found);
@@ -151,7 +158,7 @@ class FieldScene final : public TracedScene {
       query.found[lane] = found[lane];
       query.limits[lane] = found[lane].t;
       query.hits |= RayLanes{1} << lane;
-      float& reach = RTCRayN_tfar(rays, packet.width, packet.places[lane]);
+      float& reach = packet.reach(lane);
       reach = std::min(reach, static_cast<float>(found[lane].t * scene.scale() + 2 * kFloatMargin));
     });
   }
@@ -162,9 +169,7 @@ class FieldScene final : public TracedScene {
     const Packet packet(arguments->valid, arguments->ray, arguments->N);
     const RayLanes hits = scene.cells_->any_inside(arguments->primID, query.bundle, packet.lanes, scene.tolerance());
     query.hits |= hits;
-    for_each_lane(hits, [&](std::size_t lane) {
-      RTCRayN_tfar(arguments->ray, packet.width, packet.places[lane]) = -std::numeric_limits<float>::infinity();
-    });
+    for_each_lane(hits, [&](std::size_t lane) { packet.reach(lane) = -std::numeric_limits<float>::infinity(); });
   }
 
   std::unique_ptr<const SurfaceCells> cells_;
