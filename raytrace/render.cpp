@@ -114,7 +114,7 @@ class TileRenderer {
   TileRenderer(const Tracer& tracer, const RenderScene& scene, const RenderOptions& options, const PixelRegion& region)
       : options_(options),
         picture_(PixelRegion{0, 0, options.width, options.height}),
-        block_size_(options.samples_per_pixel < kFirstSamples ? kLargestBlock : 2),
+        block_size_(kLargestBlock),
         camera_(scene.camera, options.width, options.height),
         path_(tracer, scene, camera_.footprint(), options.bounces),
         layout_(options.seed, options.width, options.height, options.samples_per_pixel),
@@ -148,9 +148,17 @@ class TileRenderer {
    public:
     explicit BlockSums(const PixelRange& pixels) : pixels_(pixels) {}
 
+    // In squares of two by two, whose rays follow each other.
     template <typename Visit>
     void for_each(const Visit& visit) {
-      pixels_.for_each([&](int x, int y) { visit(sums_[pixels_.index(x, y)], x, y); });
+      const auto [first, last] = pixels_;
+      for (int v = first.y; v < last.y; v += 2) {
+        for (int u = first.x; u < last.x; u += 2) {
+          PixelRange({u, v}, glm::min(glm::ivec2(u + 2, v + 2), last)).for_each([&](int x, int y) {
+            visit(sums_[pixels_.index(x, y)], x, y);
+          });
+        }
+      }
     }
 
    private:
