@@ -184,11 +184,12 @@ class Machine {
   }
 
   void enter(const Warp& warp, const PointBatch& p, std::size_t level) {
-    const Vec3 origin = warp.map(p.origin);
-    scratch_.origins[level + 1] = origin;
     if (const Warp::BendData* bend = warp.bend()) {
+      scratch_.origins[level + 1] = bend->straight_middle();
       return bend_points(*bend, model_.units.scale, p, points_at(level + 1, p.size));
     }
+    const Vec3 origin = warp.map(p.origin);
+    scratch_.origins[level + 1] = origin;
     for (std::size_t i = 0; i < p.size; ++i) {
       const Vec3 q = model_.units.scale * (warp.map(place(p, i)) - origin);
       for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "blobtree/bend_kernels.h"
 #include "blobtree/line_kernels.h"
 #include "blobtree/operator_bounds.h"
 
@@ -118,12 +119,6 @@ struct Met : ConesMet {
     is_warped = false;
     what = kind;
   }
-  void add(const WarpedPiece& piece) {
-    is_warped = true;
-    stretch = std::max(stretch, piece.stretch);
-    curvature = std::max(curvature, piece.curvature);
-    jump = std::max(jump, piece.jump);
-  }
 };
 
 // The lines that some rays are under a warp.
@@ -131,7 +126,7 @@ struct WarpedLines {
   const Warp* warp = nullptr;
   Vec3 origin{0};
   LineColumns lines;
-  WarpedPiece most;
+  double stretch = 1, curvature = 0, jump = 0;  // the most of all
 };
 
 class Meeter {
@@ -143,9 +138,10 @@ class Meeter {
   }
 
   void run(LineMeeting& meeting) {
-    // By whichever takes fewer calls: a ray with many cones, or a cone with many rays, which is placed but once.
+    // By whichever takes fewer calls: a ray with many cones, or a cone with many rays, which is placed but once. Under
+    // warps a ray is another line for every cone.
     const auto rays = static_cast<std::size_t>(std::popcount(rays_));
-    if (2 * rays * ((primitives_.size() + kWidth - 1) / kWidth) <= primitives_.size() + 1) {
+    if (model_.warps.empty() && 2 * rays * ((primitives_.size() + kWidth - 1) / kWidth) <= primitives_.size() + 1) {
       meet_by_ray();
     } else {
       meet_by_cone();
@@ -155,12 +151,6 @@ class Meeter {
   }
 
  private:
-  // What a kernel meets: its place among the primitives, and the warp above it if there is one.
-  struct Candidate {
-    std::size_t index;
-    const Warp* warp;
-  };
-
   static constexpr std::size_t kWidth = ConeColumns::kWidth;
   static_assert(kWidth == RayBundle::kWidth);
 
@@ -168,6 +158,8 @@ class Meeter {
     thread_local std::vector<Met> met;
     return met;
   }
+
+  std::size_t lane_count() const { return static_cast<std::size_t>(std::bit_width(rays_)); }
 
   // What no kernel meets is met by all.
   bool is_met_by_kernels(std::size_t i, const Surroundings& around) {
@@ -193,7 +185,6 @@ class Meeter {
 
   void meet_by_cone() {
     const auto first = static_cast<std::size_t>(std::countr_zero(rays_));
-    const std::size_t count = static_cast<std::size_t>(std::bit_width(rays_));
     const Vec3 origin = straight_piece(bundle_.ray(first), ranges_[first]).middle;
     LineColumns straight{};
     for_each_lane(rays_, [&](std::size_t lane) {
@@ -204,17 +195,58 @@ class Meeter {
       const std::uint32_t number = primitives_[i];
       const Surroundings around = surroundings_of(model_, model_.sums[number]);
       if (!is_met_by_kernels(i, around)) continue;
-      if (around.warp && around.warp != warped.warp) warp_lines(*around.warp, warped);
+      if (around.warp && around.warp != warped.warp) warp_lines(*around.warp, origin, warped);
       place(model_.cones[number], model_.kinds[number], around.warp ? warped.origin : origin, model_.units, 0,
             columns_);
-      meet_first_cone(columns_, around.warp ? warped.lines : straight, count, met_[i]);
+      meet_first_cone(columns_, around.warp ? warped.lines : straight, lane_count(), met_[i]);
       met_[i].met &= rays_;
-      if (around.warp) met_[i].add(warped.most);
+      if (!around.warp) continue;
+      met_[i].is_warped = true;
+      met_[i].stretch = warped.stretch;
+      met_[i].curvature = warped.curvature;
+      met_[i].jump = warped.jump;
     }
   }
 
-  void warp_lines(const Warp& warp, WarpedLines& warped) const {
-    warped = {&warp, Vec3(0), {}, {{}, {}, 1, 0, 0}};
+  void warp_lines(const Warp& warp, const Vec3& origin, WarpedLines& warped) const {
+    warped.warp = &warp;
+    warped.stretch = 1;
+    warped.curvature = warped.jump = 0;
+    if (const Warp::BendData* bend = warp.bend()) {
+      bend_lines(*bend, origin, warped);
+    } else {
+      map_lines(warp, warped);
+    }
+  }
+
+  void bend_lines(const Warp::BendData& bend, const Vec3& origin, WarpedLines& warped) const {
+    const double scale = model_.units.scale;
+    PieceColumns pieces{};
+    pieces.origin = origin;
+    for_each_lane(rays_, [&](std::size_t lane) {
+      const Ray ray = bundle_.ray(lane);
+      const Vec3 from = scale * (ray.at(ranges_.lo[lane]) - origin), to = scale * (ray.at(ranges_.hi[lane]) - origin);
+      for (int k = 0; k < 3; ++k) {
+        pieces.from[static_cast<std::size_t>(k)][lane] = static_cast<float>(from[k]);
+        pieces.to[static_cast<std::size_t>(k)][lane] = static_cast<float>(to[k]);
+      }
+    });
+    BentPieces bent;
+    bend_pieces(bend, scale, pieces, lane_count(), bent);
+    warped.origin = bend.straight_middle();
+    warped.lines = bent.chords;
+    const auto most = [&](const ConeColumns::Column& column) {
+      float largest = 0;
+      for_each_lane(rays_, [&](std::size_t lane) { largest = std::max(largest, column[lane]); });
+      return static_cast<double>(largest);
+    };
+    warped.stretch = most(bent.stretch);
+    warped.curvature = scale * most(bent.curvature);
+    warped.jump = most(bent.jump);
+  }
+
+  void map_lines(const Warp& warp, WarpedLines& warped) const {
+    warped.lines = {};
     bool is_first = true;
     for_each_lane(rays_, [&](std::size_t lane) {
       const Ray ray = bundle_.ray(lane);
@@ -223,17 +255,16 @@ class Meeter {
       if (is_first) warped.origin = chord.middle;
       is_first = false;
       place(chord, warped.origin, model_.units, lane, warped.lines);
-      warped.most.stretch = std::max(warped.most.stretch, piece.stretch);
-      warped.most.curvature = std::max(warped.most.curvature, piece.curvature);
-      warped.most.jump = std::max(warped.most.jump, piece.jump);
+      warped.stretch = std::max(warped.stretch, piece.stretch);
+      warped.curvature = std::max(warped.curvature, piece.curvature);
+      warped.jump = std::max(warped.jump, piece.jump);
     });
   }
 
   void meet_by_ray() {
     candidates_.clear();
     for (std::size_t i = 0; i < primitives_.size(); ++i) {
-      const Surroundings around = surroundings_of(model_, model_.sums[primitives_[i]]);
-      if (is_met_by_kernels(i, around)) candidates_.push_back({i, around.warp});
+      if (is_met_by_kernels(i, {})) candidates_.push_back(i);
     }
     for_each_lane(rays_, [&](std::size_t ray) {
       for (std::size_t start = 0; start < candidates_.size(); start += kWidth) {
@@ -242,26 +273,17 @@ class Meeter {
     });
   }
 
-  void meet_some(std::size_t ray, std::span<const Candidate> some) {
-    const Ray whole = bundle_.ray(ray);
-    const Interval range = ranges_[ray];
-    const Piece straight = straight_piece(whole, range);
-    const Warp* warp = nullptr;
-    WarpedPiece warped;
+  void meet_some(std::size_t ray, std::span<const std::size_t> some) {
+    const Piece piece = straight_piece(bundle_.ray(ray), ranges_[ray]);
     for (std::size_t lane = 0; lane < some.size(); ++lane) {
-      const auto& [index, above] = some[lane];
-      if (above && above != warp) warped = above->map(whole.at(range.lo), whole.at(range.hi));
-      warp = above ? above : warp;
-      const Piece piece = above ? chord_of(warped, range.hi - range.lo) : straight;
-      if (above) met_[index].add(warped);
-      const std::uint32_t number = primitives_[index];
+      const std::uint32_t number = primitives_[some[lane]];
       place(model_.cones[number], model_.kinds[number], piece.middle, model_.units, lane, columns_);
       place(piece, piece.middle, model_.units, lane, lines_);
     }
     ConesMet result;
     meet_cones(columns_, lines_, some.size(), result);
     for (std::size_t lane = 0; lane < some.size(); ++lane) {
-      Met& met = met_[some[lane].index];
+      Met& met = met_[some[lane]];
       met.steady |= (result.steady >> lane & 1) << ray;
       if ((result.met >> lane & 1) == 0) continue;
       met.met |= RayLanes{1} << ray;
@@ -339,8 +361,8 @@ class Meeter {
             (met.steady & all) == all};
   }
 
-  static std::vector<Candidate>& candidate_memory() {
-    thread_local std::vector<Candidate> candidates;
+  static std::vector<std::size_t>& candidate_memory() {
+    thread_local std::vector<std::size_t> candidates;
     return candidates;
   }
 
@@ -352,7 +374,7 @@ class Meeter {
   std::vector<Met>& met_;
   ConeColumns columns_;
   LineColumns lines_;
-  std::vector<Candidate>& candidates_ = candidate_memory();
+  std::vector<std::size_t>& candidates_ = candidate_memory();
 };
 
 }  // namespace

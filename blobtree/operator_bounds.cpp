@@ -163,9 +163,10 @@ FieldBounds bounds_of(const Contact& contact, std::span<const FieldBounds> child
     result.value.lo = std::min(result.value.lo, pressed + expansion.lo - kRounding * all.lowest_expansion);
     result.value.hi = std::max(result.value.hi, child.value.hi + expansion.hi + kRounding * all.highest_expansion);
     result.slope = std::max(result.slope, child.slope + of_others(all.slope, own.slope) + kRounding * all.slope);
-    result.second.hi = child.second.hi + all.second;
+    // Where it is pressed down to the iso-value there is a crease.
+    result.second.hi = compression > 0 ? kInfinity : child.second.hi + all.second;
   }
-  // Where another becomes the highest there is a crease.
+  // And where another becomes the highest.
   if (candidates > 1) result.second.hi = kInfinity;
   return result;
 }

@@ -51,6 +51,9 @@ class Warp {
     double half_angle, arc_radius, arc, chord, reach;
     double sine, cosine;   // of the half angle
     double center_height;  // of the arc's centre, in the frame
+
+    /// Where the middle of the arc comes from: what mapped points are best counted from.
+    Vec3 straight_middle() const { return frame.to_world({0.5 * arc, 0, 0}); }
   };
 
   Warp(const Bend& bend, const Box& child_support);
