@@ -24,9 +24,11 @@ struct FieldBounds {
   /// At least the length of every gradient, and a Lipschitz constant of the field on the region if that is convex.
   double slope = 0;
   /// Encloses the second derivative along every line, where it is known; a crease that points up, like contact's,
-  /// counts as +infinity and one that points down as -infinity. So between two points at a distance h the field is at
-  /// most the larger of its values there minus second.lo h^2 / 8.
+  /// counts as +infinity and one that points down as -infinity, but for those that `kink` knows of.
   Interval second{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  /// At least what the slope along any line jumps by in all, where bends end. So between two points at a distance h the
+  /// field is at most the larger of its values there minus second.lo h^2 / 8 plus kink h / 4.
+  double kink = 0;
 };
 
 /// An immutable scalar field. Every member may be called from many threads at once.

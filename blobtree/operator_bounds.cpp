@@ -44,13 +44,20 @@ double lowest_second(std::span<const FieldBounds> children) {
   return lowest;
 }
 
+double largest_kink(std::span<const FieldBounds> children) {
+  double kink = 0;
+  for (const FieldBounds& child : children) kink = std::max(kink, child.kink);
+  return kink;
+}
+
 }  // namespace
 
 FieldBounds through_warp(FieldBounds bounds, double stretch, double curvature, double jump) {
-  const double mixed = bounds.slope > 0 ? bounds.slope * (jump > 0 ? kInfinity : curvature) : 0;
+  const double mixed = bounds.slope > 0 ? bounds.slope * curvature : 0;
   const double stretch2 = stretch * stretch;
   bounds.second = {std::min(0.0, stretch2 * bounds.second.lo) - mixed,
                    std::max(0.0, stretch2 * bounds.second.hi) + mixed};
+  bounds.kink = stretch * bounds.kink + bounds.slope * jump;
   bounds.slope *= stretch;
   return bounds;
 }
@@ -78,6 +85,7 @@ FieldBounds bounds_of(const Union&, std::span<const FieldBounds> children) {
   const Interval range = of_rising(children, -kInfinity, [](double a, double b) { return std::max(a, b); });
   FieldBounds result{range, slope_of_choice(children, [&](const FieldBounds& c) { return c.value.hi >= range.lo; })};
   result.second.lo = lowest_second(children);
+  result.kink = largest_kink(children);
   return result;
 }
 
@@ -86,6 +94,7 @@ FieldBounds bounds_of(const Intersection&, std::span<const FieldBounds> children
   FieldBounds result{range, slope_of_choice(children, [&](const FieldBounds& c) { return c.value.lo <= range.hi; })};
   result.second.hi = 0;
   for (const FieldBounds& child : children) result.second.hi = std::max(result.second.hi, child.second.hi);
+  result.kink = largest_kink(children);
   return result;
 }
 
@@ -113,6 +122,7 @@ FieldBounds bounds_of(const Negative&, std::span<const FieldBounds> children) {
     result.slope += child.slope;
     result.second.lo -= child.second.hi;
     result.second.hi -= child.second.lo;
+    result.kink += child.kink;
   }
   return result;
 }
@@ -120,7 +130,7 @@ FieldBounds bounds_of(const Negative&, std::span<const FieldBounds> children) {
 FieldBounds bounds_of(const Contact& contact, std::span<const FieldBounds> children) {
   // What each child does to the others, and all of them together.
   struct Effect {
-    double lowest_expansion = 0, highest_expansion = 0, compression = 0, slope = 0, second = 0;
+    double lowest_expansion = 0, highest_expansion = 0, compression = 0, slope = 0, second = 0, kink = 0;
   };
   // Of e(f) for a child's field f: e' f'' + e'' f'^2, in size.
   const double most_bent = most_bent_expansion(contact.shape);
@@ -130,8 +140,12 @@ FieldBounds bounds_of(const Contact& contact, std::span<const FieldBounds> child
   };
   const auto effect_of = [&](const FieldBounds& child) {
     const ContactRange range = contact_range(contact.shape, child.value);
-    return Effect{range.lowest_expansion, range.highest_expansion, std::max(0.0, child.value.hi - kIsoValue),
-                  range.steepest_effect * child.slope, second_of_effect(child, range)};
+    return Effect{range.lowest_expansion,
+                  range.highest_expansion,
+                  std::max(0.0, child.value.hi - kIsoValue),
+                  range.steepest_effect * child.slope,
+                  second_of_effect(child, range),
+                  range.steepest_effect * child.kink};
   };
   Effect all;
   double highest_lo = -kInfinity;
@@ -142,6 +156,7 @@ FieldBounds bounds_of(const Contact& contact, std::span<const FieldBounds> child
     all.compression += effect.compression;
     all.slope += effect.slope;
     all.second += effect.second;
+    all.kink += effect.kink;
     highest_lo = std::max(highest_lo, child.value.lo);
   }
   // Any child that can be the highest may be the one that the others deform. Its own effect is taken off again, which
@@ -150,6 +165,7 @@ FieldBounds bounds_of(const Contact& contact, std::span<const FieldBounds> child
   const auto of_others = [](double sum, double own) { return std::max(0.0, sum - own); };
   FieldBounds result{{kInfinity, -kInfinity}, 0};
   result.second.lo = lowest_second(children) - all.second;
+  result.kink = largest_kink(children) + all.kink;
   std::size_t candidates = 0;
   for (const FieldBounds& child : children) {
     if (child.value.hi < highest_lo) continue;

@@ -16,9 +16,11 @@ inline void add(FieldBounds& sum, const FieldBounds& summand) {
   sum.slope += summand.slope;
   sum.second.lo += summand.second.lo;
   sum.second.hi += summand.second.hi;
+  sum.kink += summand.kink;
 }
 
-/// Those of F o w from those of F, with bounds of w as in WarpedBox: (F o w)'' is F'' along w' plus F' along w''.
+/// Those of F o w from those of F, with bounds of w as in WarpedBox: (F o w)'' is F'' along w' plus F' along w'', and
+/// where w' jumps so does (F o w)', by F' along the jump.
 FieldBounds through_warp(FieldBounds bounds, double stretch, double curvature, double jump);
 
 FieldBounds bounds_of(const Sum&, std::span<const FieldBounds> children);

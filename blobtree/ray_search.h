@@ -44,6 +44,7 @@ class RaySearch {
         slope_(bounds.slope),
         lowest_second_(bounds.second.lo),
         largest_second_(std::max(-bounds.second.lo, bounds.second.hi)),
+        kink_(bounds.kink),
         tolerance_(tolerance),
         aim_(aim) {}
 
@@ -53,7 +54,7 @@ class RaySearch {
     sample_(range, f);
     const double h = (range.hi - range.lo) / kPieces;
     // How far the field can rise between two samples: above their mean, and above the larger of them.
-    const double over_mean = 0.5 * slope_ * h, over_larger = -0.125 * lowest_second_ * h * h;
+    const double over_mean = 0.5 * slope_ * h, over_larger = h * (0.25 * kink_ - 0.125 * lowest_second_ * h);
     const bool is_noise = std::min(over_mean, over_larger) < kNoise || h <= tolerance_;
     const SearchRound round = settle(f, kIso, static_cast<Real>(over_mean), static_cast<Real>(over_larger));
     const auto is_inside = [&](std::size_t i) { return (round.inside >> i & 1) != 0; };
@@ -103,12 +104,12 @@ class RaySearch {
     const double precision = aim_ == SearchAim::kBeforeNewton ? kCoarseness * tolerance_ : tolerance_;
     if (over_larger * h <= precision * rise) return longest_step();
     if (aim_ != SearchAim::kBeforeNewton || !std::isfinite(largest_second_)) return std::nullopt;
-    // The chord is off the field by at most M h^2 / 8, so its root by e = that over the least slope; Newton's step
-    // leaves M e^2 / 2 over the least slope.
-    const double least_slope = rise / h - largest_second_ * h;
+    // The chord is off the field by at most h (M h / 8 + K / 4), so its root by e = that over the least slope; Newton's
+    // step leaves e (M e / 2 + K) over the least slope.
+    const double least_slope = rise / h - largest_second_ * h - kink_;
     if (!(least_slope > 0)) return std::nullopt;
-    const double off = 0.125 * largest_second_ * h * h / least_slope;
-    if (0.5 * largest_second_ * off * off > tolerance_ * least_slope) return std::nullopt;
+    const double off = h * (0.125 * largest_second_ * h + 0.25 * kink_) / least_slope;
+    if (off * (0.5 * largest_second_ * off + kink_) > tolerance_ * least_slope) return std::nullopt;
     return std::max(2 * off, longest_step());
   }
 
@@ -120,7 +121,7 @@ class RaySearch {
 
   const Sample& sample_;
   double slope_;
-  double lowest_second_, largest_second_;
+  double lowest_second_, largest_second_, kink_;
   double tolerance_;
   SearchAim aim_;
 };
