@@ -24,7 +24,8 @@ struct Scratch {
   std::vector<LocalCone> cones;
   std::vector<LineCone> line_cones;
   std::vector<FieldColumns> fields;
-  std::vector<Vec3> origins;
+  std::vector<Vec3> origins;  // by level of warps, for what is being evaluated
+  std::vector<Vec3> entered;  // under each warp of the program
 
   float* take(std::size_t count) {
     if (count > capacity) {
@@ -57,10 +58,30 @@ class Machine {
   float* point_column(std::size_t axis, std::size_t level = 0) { return numbers_ + (3 * level + axis) * capacity_; }
   const FieldColumns& result() const { return scratch_.fields[0]; }
 
-  /// What the points to come are relative to.
+  /// What the points to come are relative to. Under warps every set of points has an origin of its own, which follows
+  /// from it.
   void set_origin(const Vec3& origin) {
     scratch_.origins[0] = origin;
-    if (!has_warps_) localize(program_.cones, origin);
+    scratch_.entered.clear();
+    scratch_.cones.resize(program_.cones.size());
+    std::size_t level = 0;
+    for (const FieldInstruction& instruction : program_.code) {
+      const Vec3& here = scratch_.origins[level];
+      switch (instruction.op) {
+        case Op::kCones:
+          localize(instruction, here);
+          break;
+        case Op::kEnterWarp:
+          scratch_.entered.push_back(origin_under(model_.warps[instruction.index], here));
+          scratch_.origins[++level] = scratch_.entered.back();
+          break;
+        case Op::kLeaveWarp:
+          --level;
+          break;
+        default:
+          break;
+      }
+    }
   }
 
   /// Whether a line's points can be told by their parameter alone: where nothing but cones is evaluated, unwarped.
@@ -86,7 +107,7 @@ class Machine {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       std::fill(point_column(axis) + size, point_column(axis) + whole, 0.0f);
     }
-    std::size_t top = 0, level = 0;
+    std::size_t top = 0, level = 0, entered = 0;
     PointBatch points = points_at(0, whole);
     std::vector<FieldColumns>& fields = scratch_.fields;
     for (const FieldInstruction& instruction : program_.code) {
@@ -104,6 +125,7 @@ class Machine {
           negate(fields[top - 1], whole);
           break;
         case Op::kEnterWarp:
+          scratch_.origins[level + 1] = scratch_.entered[entered++];
           enter(model_.warps[instruction.index], points, level);
           points = points_at(++level, whole);
           break;
@@ -145,26 +167,27 @@ class Machine {
     for_each_number(field, size, [](float& x) { x = -x; });
   }
 
-  void localize(std::span<const ConeReference> references, const Vec3& origin) {
-    std::vector<LocalCone>& cones = scratch_.cones;
-    cones.clear();
-    for (const ConeReference& reference : references) {
-      cones.push_back(
-          local_cone(model_.cones[reference.cone], static_cast<ConeKind>(reference.kind), origin, model_.units.scale));
+  void localize(const FieldInstruction& cones, const Vec3& origin) {
+    for (std::size_t k = cones.index; k < cones.index + cones.count; ++k) {
+      const ConeReference& reference = program_.cones[k];
+      scratch_.cones[k] =
+          local_cone(model_.cones[reference.cone], static_cast<ConeKind>(reference.kind), origin, model_.units.scale);
     }
   }
 
-  // Under warps every set of points has an origin of its own.
+  // Under a bend the same for all, near to all that happens at the bend.
+  static Vec3 origin_under(const Warp& warp, const Vec3& origin) {
+    const Warp::BendData* bend = warp.bend();
+    return bend ? bend->straight_middle() : warp.map(origin);
+  }
+
   void evaluate_cones(const FieldInstruction& instruction, const PointBatch& points, const FieldColumns& out) {
-    std::size_t first = instruction.index;
+    const auto of = [&](const auto& cones) { return std::span(cones).subspan(instruction.index, instruction.count); };
     if (is_on_line_) {
-      return sum_cones_along(std::span(scratch_.line_cones).subspan(first, instruction.count), points.at[0], out.f);
+      sum_cones_along(of(scratch_.line_cones), points.at[0], out.f);
+    } else {
+      sum_cones(of(scratch_.cones), points, out);
     }
-    if (has_warps_) {
-      localize(std::span(program_.cones).subspan(first, instruction.count), points.origin);
-      first = 0;
-    }
-    sum_cones(std::span(scratch_.cones).subspan(first, instruction.count), points, out);
   }
 
   Vec3 place(const PointBatch& p, std::size_t i) const {
@@ -184,17 +207,11 @@ class Machine {
   }
 
   void enter(const Warp& warp, const PointBatch& p, std::size_t level) {
-    if (const Warp::BendData* bend = warp.bend()) {
-      scratch_.origins[level + 1] = bend->straight_middle();
-      return bend_points(*bend, model_.units.scale, p, points_at(level + 1, p.size));
-    }
-    const Vec3 origin = warp.map(p.origin);
-    scratch_.origins[level + 1] = origin;
+    const PointBatch to = points_at(level + 1, p.size);
+    if (const Warp::BendData* bend = warp.bend()) return bend_points(*bend, model_.units.scale, p, to);
     for (std::size_t i = 0; i < p.size; ++i) {
-      const Vec3 q = model_.units.scale * (warp.map(place(p, i)) - origin);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        point_column(axis, level + 1)[i] = static_cast<float>(q[static_cast<int>(axis)]);
-      }
+      const Vec3 q = model_.units.scale * (warp.map(place(p, i)) - to.origin);
+      for (std::size_t axis = 0; axis < 3; ++axis) to.at[axis][i] = static_cast<float>(q[static_cast<int>(axis)]);
     }
   }
   void leave(const Warp& warp, const PointBatch& p, const FieldColumns& field) const {

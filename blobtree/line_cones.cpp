@@ -123,9 +123,9 @@ struct Met : ConesMet {
 
 // The lines that some rays are under a warp.
 struct WarpedLines {
+  BentPieces pieces;
   const Warp* warp = nullptr;
   Vec3 origin{0};
-  LineColumns lines;
   double stretch = 1, curvature = 0, jump = 0;  // the most of all
 };
 
@@ -190,15 +190,16 @@ class Meeter {
     for_each_lane(rays_, [&](std::size_t lane) {
       place(straight_piece(bundle_.ray(lane), ranges_[lane]), origin, model_.units, lane, straight);
     });
+    const PieceColumns pieces = model_.warps.empty() ? PieceColumns{} : pieces_about(origin);
     WarpedLines warped;
     for (std::size_t i = 0; i < primitives_.size(); ++i) {
       const std::uint32_t number = primitives_[i];
       const Surroundings around = surroundings_of(model_, model_.sums[number]);
       if (!is_met_by_kernels(i, around)) continue;
-      if (around.warp && around.warp != warped.warp) warp_lines(*around.warp, origin, warped);
+      if (around.warp && around.warp != warped.warp) warp_lines(*around.warp, pieces, warped);
       place(model_.cones[number], model_.kinds[number], around.warp ? warped.origin : origin, model_.units, 0,
             columns_);
-      meet_first_cone(columns_, around.warp ? warped.lines : straight, lane_count(), met_[i]);
+      meet_first_cone(columns_, around.warp ? warped.pieces.chords : straight, lane_count(), met_[i]);
       met_[i].met &= rays_;
       if (!around.warp) continue;
       met_[i].is_warped = true;
@@ -208,18 +209,18 @@ class Meeter {
     }
   }
 
-  void warp_lines(const Warp& warp, const Vec3& origin, WarpedLines& warped) const {
+  void warp_lines(const Warp& warp, const PieceColumns& pieces, WarpedLines& warped) const {
     warped.warp = &warp;
     warped.stretch = 1;
     warped.curvature = warped.jump = 0;
     if (const Warp::BendData* bend = warp.bend()) {
-      bend_lines(*bend, origin, warped);
+      bend_lines(*bend, pieces, warped);
     } else {
       map_lines(warp, warped);
     }
   }
 
-  void bend_lines(const Warp::BendData& bend, const Vec3& origin, WarpedLines& warped) const {
+  PieceColumns pieces_about(const Vec3& origin) const {
     const double scale = model_.units.scale;
     PieceColumns pieces{};
     pieces.origin = origin;
@@ -231,10 +232,14 @@ class Meeter {
         pieces.to[static_cast<std::size_t>(k)][lane] = static_cast<float>(to[k]);
       }
     });
-    BentPieces bent;
+    return pieces;
+  }
+
+  void bend_lines(const Warp::BendData& bend, const PieceColumns& pieces, WarpedLines& warped) const {
+    const double scale = model_.units.scale;
+    BentPieces& bent = warped.pieces;
     bend_pieces(bend, scale, pieces, lane_count(), bent);
     warped.origin = bend.straight_middle();
-    warped.lines = bent.chords;
     const auto most = [&](const ConeColumns::Column& column) {
       float largest = 0;
       for_each_lane(rays_, [&](std::size_t lane) { largest = std::max(largest, column[lane]); });
@@ -246,7 +251,7 @@ class Meeter {
   }
 
   void map_lines(const Warp& warp, WarpedLines& warped) const {
-    warped.lines = {};
+    warped.pieces.chords = {};
     bool is_first = true;
     for_each_lane(rays_, [&](std::size_t lane) {
       const Ray ray = bundle_.ray(lane);
@@ -254,7 +259,7 @@ class Meeter {
       const Piece chord = chord_of(piece, ranges_.hi[lane] - ranges_.lo[lane]);
       if (is_first) warped.origin = chord.middle;
       is_first = false;
-      place(chord, warped.origin, model_.units, lane, warped.lines);
+      place(chord, warped.origin, model_.units, lane, warped.pieces.chords);
       warped.stretch = std::max(warped.stretch, piece.stretch);
       warped.curvature = std::max(warped.curvature, piece.curvature);
       warped.jump = std::max(warped.jump, piece.jump);

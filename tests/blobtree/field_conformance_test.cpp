@@ -170,7 +170,7 @@ TEST_CASE("between two points a field is no higher than its second derivative's 
         }
       }
     }
-    CHECK(bounded > 300);
+    CHECK(bounded > 200);
   }
 }
 
