@@ -191,11 +191,14 @@ class Meeter {
       place(straight_piece(bundle_.ray(lane), ranges_[lane]), origin, model_.units, lane, straight);
     });
     const PieceColumns pieces = model_.warps.empty() ? PieceColumns{} : pieces_about(origin);
+    const Box all_parts = model_.warps.empty() ? Box{} : box_around(rays_);
     WarpedLines warped;
     for (std::size_t i = 0; i < primitives_.size(); ++i) {
       const std::uint32_t number = primitives_[i];
       const Surroundings around = surroundings_of(model_, model_.sums[number]);
       if (!is_met_by_kernels(i, around)) continue;
+      // Most of what is bent is far from the rays, and boxes tell that sooner than a bend.
+      if (around.warp && !model_.supports.box(number).overlaps(all_parts)) continue;
       if (around.warp && around.warp != warped.warp) warp_lines(*around.warp, pieces, warped);
       place(model_.cones[number], model_.kinds[number], around.warp ? warped.origin : origin, model_.units, 0,
             columns_);
