@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 
 #include "blobtree/bend_kernels.h"
+#include "blobtree/disc_kernels.h"
 #include "blobtree/operator_kernels.h"
 #include "blobtree/primitive.h"
 
@@ -195,8 +196,21 @@ class Machine {
   }
 
   void evaluate_other(const FieldModel::Other& other, const PointBatch& p, const FieldColumns& out) const {
+    std::visit(
+        [&](const auto& shape) {
+          if constexpr (std::is_constructible_v<RoundShape, decltype(shape)>) {
+            sample_round(shape, model_.units.scale, p, out);
+          } else {
+            evaluate_each(shape, p, out);
+          }
+        },
+        other.shape);
+  }
+
+  template <typename Shape>
+  void evaluate_each(const Shape& shape, const PointBatch& p, const FieldColumns& out) const {
     for (std::size_t i = 0; i < p.size; ++i) {
-      const FieldSample at = std::visit([&](const auto& shape) { return sample(shape, place(p, i)); }, other.shape);
+      const FieldSample at = sample(shape, place(p, i));
       out.f[i] = static_cast<float>(at.value);
       if (gradients_) store_gradient(at.gradient / model_.units.scale, out, i);
     }
