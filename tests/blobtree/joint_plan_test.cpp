@@ -98,7 +98,7 @@ TEST_CASE("short internodes that turn sharply are the union of their round cones
 
 TEST_CASE("gentle turns and symmetric forks fade") {
   for (const Skeleton& skeleton : {zigzag(3, 25, 9), fork(2, 60), fork(5, 80)}) {
-    const std::vector<JointPlan> plans = plan_joints(skeleton, child_table(skeleton), 30);
+    const std::vector<JointPlan> plans = plan_joints(skeleton, {}, child_table(skeleton), 30);
     CHECK(plans[0].fades_at_tip);
     for (std::size_t i = 1; i < plans.size(); ++i) CHECK(plans[i].fades_at_base);
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "blobtree/field.h"
+#include "blobtree/primitive.h"
 #include "tests/support/skeletons.h"
 
 namespace barkridge::test {
@@ -99,6 +100,18 @@ inline double distance_to(const Internode& a, const Vec3& p, Vec3& nearest) {
   return glm::distance(p, nearest);
 }
 
+// How far an internode's round cone, the spheres along it, reaches across from its axis, at a share of its length.
+inline double reach_across(const Internode& a, double along) {
+  const double length = glm::distance(a.base, a.tip);
+  const double taper = (a.tip_radius - a.base_radius) / length;
+  const double y = along * length, flank = (a.base_radius + taper * y) / std::sqrt(std::max(1e-9, 1 - taper * taper));
+  const double foot = std::abs(taper) < 1 ? y + taper * flank * flank / (a.base_radius + taper * y) : 0;
+  if (0 <= foot && foot <= length && std::abs(taper) < 1) return flank;
+  const double from_base = std::sqrt(std::max(0.0, a.base_radius * a.base_radius - y * y));
+  const double from_tip = std::sqrt(std::max(0.0, a.tip_radius * a.tip_radius - (length - y) * (length - y)));
+  return std::max(from_base, from_tip);
+}
+
 // Lengths of ways along a tree.
 class Ways {
  public:
@@ -134,7 +147,8 @@ class Ways {
 struct Ray {
   Vec3 origin, direction;
   double own, along, azimuth;
-  bool away;  // from forks and tips
+  bool away;   // from forks and tips
+  bool bends;  // near a gentle corner
 };
 
 // Where the rays leave the solid for the first time, or `most`. Rays that start outside: 0.
@@ -174,6 +188,7 @@ inline Dependability dependability_of(const Skeleton& skeleton, const Field& fie
   const auto& all = skeleton.internodes;
   const ChildTable table = child_table(skeleton);
   const auto children = [&](std::size_t i) { return table.first[i + 1] - table.first[i]; };
+  const Ways ways(skeleton);
   // By internode: the thickest radius that meets at its tip. What starts within a thicker one's body meets that, too.
   std::vector<double> at_tip(all.size(), 0);
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -191,10 +206,10 @@ inline Dependability dependability_of(const Skeleton& skeleton, const Field& fie
     const Internode& a = all[i];
     Vec3 nearest;
     const double distance = distance_to(a, p, nearest);
-    const double from_base = glm::distance(a.base, nearest), to_tip = glm::distance(a.tip, nearest);
-    double thickest = a.base_radius + (a.tip_radius - a.base_radius) * from_base / (from_base + to_tip);
-    if (from_base < 3 * at_base(a)) thickest = std::max(thickest, at_base(a));
-    if (to_tip < 3 * at_tip[i]) thickest = std::max(thickest, at_tip[i]);
+    double thickest = reach_across(a, glm::distance(a.base, nearest) / glm::distance(a.base, a.tip));
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (ways.between(i, nearest, k, all[k].tip) < 3 * at_tip[k]) thickest = std::max(thickest, at_tip[k]);
+    }
     return distance / thickest;
   };
   const auto is_away = [&](const Vec3& p) {
@@ -203,9 +218,28 @@ inline Dependability dependability_of(const Skeleton& skeleton, const Field& fie
     }
     return glm::distance(p, all[0].base) >= 3 * all[0].base_radius;
   };
+  // Within three radii of where the axis turns gently.
+  const auto bends_at = [&](std::size_t i, const Vec3& p) {
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (children(k) != 1 || glm::distance(p, all[k].tip) >= 3 * at_tip[k]) continue;
+      const Internode& child = all[static_cast<std::size_t>(table.children[table.first[k]])];
+      const double cosine = glm::dot(glm::normalize(all[k].tip - all[k].base), glm::normalize(child.tip - child.base));
+      if (cosine > std::cos(30 * kDegree)) return true;
+    }
+    (void)i;
+    return false;
+  };
+  // Whether another internode's round cone reaches farther.
+  const auto is_others = [&](std::size_t i, const Vec3& end) {
+    for (std::size_t b = 0; b < all.size(); ++b) {
+      if (b == i) continue;
+      const Sphere sphere = nearest_sphere(Cone{all[b].base, all[b].tip, all[b].base_radius, all[b].tip_radius}, end);
+      if (glm::distance(sphere.center, end) < 1.001 * sphere.radius) return true;
+    }
+    return false;
+  };
   // What reaches a ray's end and lies on its side makes a fillet; what the tree's way to is much longer than the
   // straight one passes by.
-  const Ways ways(skeleton);
   const auto is_free = [&](std::size_t i, const Ray& ray, const Vec3& end) {
     for (std::size_t b = 0; b < all.size(); ++b) {
       Vec3 nearest;
@@ -232,14 +266,19 @@ inline Dependability dependability_of(const Skeleton& skeleton, const Field& fie
       for (int k = 0; k <= kAlong; ++k) {
         const double y = static_cast<double>(k) / kAlong;
         const Vec3 origin = a.base + y * (a.tip - a.base);
-        rays.push_back({origin, std::cos(turn) * side + std::sin(turn) * other,
-                        a.base_radius + y * (a.tip_radius - a.base_radius), y, turn, is_away(origin)});
+        rays.push_back({origin, std::cos(turn) * side + std::sin(turn) * other, reach_across(a, y), y, turn,
+                        is_away(origin), bends_at(i, origin)});
       }
     }
     const std::vector<double> radii = exits(field, rays, kMost * std::max(at_base(a), at_tip[i]));
+    std::vector<bool> free(rays.size());
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+      free[k] = is_free(i, rays[k], rays[k].origin + radii[k] * rays[k].direction);
+    }
     double lowest = 0;
     for (std::size_t k = 0; k < rays.size(); ++k) {
       const Ray& ray = rays[k];
+      const std::size_t across = (k + rays.size() / 2) % rays.size();
       if (ray.along == 0) lowest = 1e9;
       if (radii[k] <= 0) {
         ++result.missing;
@@ -247,18 +286,19 @@ inline Dependability dependability_of(const Skeleton& skeleton, const Field& fie
       }
       const bool before_fork = children(i) > 0 && (1 - ray.along) * length < 0.1 * a.tip_radius;
       if (!before_fork) {
-        const double opposite = radii[(k + rays.size() / 2) % rays.size()];
-        result.necking.consider(1 - 0.5 * (radii[k] + opposite) / ray.own, i, ray.along, ray.azimuth);
+        result.necking.consider(1 - 0.5 * (radii[k] + radii[across]) / ray.own, i, ray.along, ray.azimuth);
         result.rounding.consider(1 - radii[k] / ray.own, i, ray.along, ray.azimuth);
       }
       const Vec3 end = ray.origin + radii[k] * ray.direction;
-      if (!is_free(i, ray, end)) continue;
+      if (!free[k]) continue;
       double outside = std::numeric_limits<double>::infinity();
       for (std::size_t b = 0; b < all.size(); ++b) outside = std::min(outside, distance_in_radii(b, end));
       result.swelling.consider(outside - 1, i, ray.along, ray.azimuth);
-      if (!ray.away) continue;
-      lowest = std::min(lowest, radii[k] / ray.own);
-      result.ring.consider(radii[k] / ray.own - lowest, i, ray.along, ray.azimuth);
+      if (!ray.away || (ray.bends && !free[across])) continue;
+      const double radius = (ray.bends ? 0.5 * (radii[k] + radii[across]) : radii[k]) / ray.own;
+      if (radius > 1 && is_others(i, end)) continue;
+      lowest = std::min(lowest, radius);
+      result.ring.consider(radius - lowest, i, ray.along, ray.azimuth);
     }
   }
   return result;
