@@ -76,15 +76,20 @@ struct Worst {
 
 struct Dependability {
   /// How far the surface lies from the nearest axis beyond the thickest radius that meets there (at a junction within
-  /// three of that, or the internode's own), in units of it, on sides where no other axis lies and none passes by.
+  /// three of that along the tree, however many internodes that is, or the internode's own), in units of it, on sides
+  /// where no other axis lies and none passes by.
   Worst swelling;
   /// How far half the solid's thickness, along a line across the axis, falls short of the internode's own radius, in
-  /// units of that; up to a tenth of a radius before its fork.
+  /// units of that; up to a tenth of a radius before its fork. Away from forks and gentle turns, as for rings, it is
+  /// the radius itself. The own radius is that of the internode by itself, the spheres along its axis, which where it
+  /// tapers reach farther across than the sphere there.
   Worst necking;
   /// The same of the radius by itself: more than that where a corner is rounded. No defect.
   Worst rounding;
   /// How much the radius rises after a dip along an internode, in units of its own, on such sides and farther than
-  /// three of the thickest radii from forks and tips.
+  /// three of the thickest radii from forks and tips. Where the axis turns by up to 30 degrees within three radii it is
+  /// half the thickness, as for necks: a rounded corner lies beside its axis and is as thick. Where another internode
+  /// by itself reaches the place, the surface is that one's, and rises as it does.
   Worst ring;
   /// Places on the axis that are outside of the solid.
   int missing = 0;
@@ -104,9 +109,10 @@ inline double distance_to(const Internode& a, const Vec3& p, Vec3& nearest) {
 inline double reach_across(const Internode& a, double along) {
   const double length = glm::distance(a.base, a.tip);
   const double taper = (a.tip_radius - a.base_radius) / length;
-  const double y = along * length, flank = (a.base_radius + taper * y) / std::sqrt(std::max(1e-9, 1 - taper * taper));
-  const double foot = std::abs(taper) < 1 ? y + taper * flank * flank / (a.base_radius + taper * y) : 0;
-  if (0 <= foot && foot <= length && std::abs(taper) < 1) return flank;
+  const double y = along * length, radius = a.base_radius + taper * y;
+  const double flank = radius / std::sqrt(std::max(1e-9, 1 - taper * taper));
+  const double center = y + taper * flank * flank / radius;  // of the sphere that reaches farthest
+  if (0 <= center && center <= length) return flank;
   const double from_base = std::sqrt(std::max(0.0, a.base_radius * a.base_radius - y * y));
   const double from_tip = std::sqrt(std::max(0.0, a.tip_radius * a.tip_radius - (length - y) * (length - y)));
   return std::max(from_base, from_tip);
@@ -201,16 +207,27 @@ inline Dependability dependability_of(const Skeleton& skeleton, const Field& fie
   const auto at_base = [&](const Internode& a) {
     return a.parent == kNoInternode ? a.base_radius : at_tip[static_cast<std::size_t>(a.parent)];
   };
-  // The distance of a place from an axis, in units of the thickest radius that meets there.
-  const auto distance_in_radii = [&](std::size_t i, const Vec3& p) {
-    const Internode& a = all[i];
-    Vec3 nearest;
-    const double distance = distance_to(a, p, nearest);
-    double thickest = reach_across(a, glm::distance(a.base, nearest) / glm::distance(a.base, a.tip));
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      if (ways.between(i, nearest, k, all[k].tip) < 3 * at_tip[k]) thickest = std::max(thickest, at_tip[k]);
+  // How far a place lies beyond the thickest radius that meets there, in units of it, from whichever axis it is least;
+  // any number up to `least` if less than that.
+  const auto beyond = [&](const Vec3& p, double least) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < all.size() && lowest > least; ++i) {
+      const Internode& a = all[i];
+      Vec3 nearest;
+      const double distance = distance_to(a, p, nearest);
+      const double own = reach_across(a, glm::distance(a.base, nearest) / glm::distance(a.base, a.tip));
+      lowest = std::min(lowest, distance / own - 1);
     }
-    return distance / thickest;
+    for (std::size_t i = 0; i < all.size() && lowest > least; ++i) {
+      Vec3 nearest;
+      const double distance = distance_to(all[i], p, nearest);
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        if (distance < (1 + lowest) * at_tip[k] && ways.between(i, nearest, k, all[k].tip) < 3 * at_tip[k]) {
+          lowest = distance / at_tip[k] - 1;
+        }
+      }
+    }
+    return lowest;
   };
   const auto is_away = [&](const Vec3& p) {
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -218,18 +235,17 @@ inline Dependability dependability_of(const Skeleton& skeleton, const Field& fie
     }
     return glm::distance(p, all[0].base) >= 3 * all[0].base_radius;
   };
-  // Within three radii of where the axis turns gently.
-  const auto bends_at = [&](std::size_t i, const Vec3& p) {
+  // Within three radii of where an axis turns gently.
+  const auto bends_at = [&](const Vec3& p) {
     for (std::size_t k = 0; k < all.size(); ++k) {
       if (children(k) != 1 || glm::distance(p, all[k].tip) >= 3 * at_tip[k]) continue;
       const Internode& child = all[static_cast<std::size_t>(table.children[table.first[k]])];
       const double cosine = glm::dot(glm::normalize(all[k].tip - all[k].base), glm::normalize(child.tip - child.base));
       if (cosine > std::cos(30 * kDegree)) return true;
     }
-    (void)i;
     return false;
   };
-  // Whether another internode's round cone reaches farther.
+  // Whether another internode by itself reaches a place.
   const auto is_others = [&](std::size_t i, const Vec3& end) {
     for (std::size_t b = 0; b < all.size(); ++b) {
       if (b == i) continue;
@@ -267,7 +283,7 @@ inline Dependability dependability_of(const Skeleton& skeleton, const Field& fie
         const double y = static_cast<double>(k) / kAlong;
         const Vec3 origin = a.base + y * (a.tip - a.base);
         rays.push_back({origin, std::cos(turn) * side + std::sin(turn) * other, reach_across(a, y), y, turn,
-                        is_away(origin), bends_at(i, origin)});
+                        is_away(origin), bends_at(origin)});
       }
     }
     const std::vector<double> radii = exits(field, rays, kMost * std::max(at_base(a), at_tip[i]));
@@ -278,27 +294,27 @@ inline Dependability dependability_of(const Skeleton& skeleton, const Field& fie
     double lowest = 0;
     for (std::size_t k = 0; k < rays.size(); ++k) {
       const Ray& ray = rays[k];
-      const std::size_t across = (k + rays.size() / 2) % rays.size();
-      if (ray.along == 0) lowest = 1e9;
+      if (ray.along == 0) lowest = std::numeric_limits<double>::infinity();
       if (radii[k] <= 0) {
         ++result.missing;
         continue;
       }
+      const std::size_t across = (k + rays.size() / 2) % rays.size();
+      const double radius = radii[k] / ray.own, half_thickness = 0.5 * (radii[k] + radii[across]) / ray.own;
       const bool before_fork = children(i) > 0 && (1 - ray.along) * length < 0.1 * a.tip_radius;
       if (!before_fork) {
-        result.necking.consider(1 - 0.5 * (radii[k] + radii[across]) / ray.own, i, ray.along, ray.azimuth);
-        result.rounding.consider(1 - radii[k] / ray.own, i, ray.along, ray.azimuth);
+        const bool off_axis = ray.bends || !ray.away;
+        result.necking.consider(1 - (off_axis ? half_thickness : radius), i, ray.along, ray.azimuth);
+        result.rounding.consider(1 - radius, i, ray.along, ray.azimuth);
       }
-      const Vec3 end = ray.origin + radii[k] * ray.direction;
       if (!free[k]) continue;
-      double outside = std::numeric_limits<double>::infinity();
-      for (std::size_t b = 0; b < all.size(); ++b) outside = std::min(outside, distance_in_radii(b, end));
-      result.swelling.consider(outside - 1, i, ray.along, ray.azimuth);
+      const Vec3 end = ray.origin + radii[k] * ray.direction;
+      result.swelling.consider(beyond(end, result.swelling.value), i, ray.along, ray.azimuth);
       if (!ray.away || (ray.bends && !free[across])) continue;
-      const double radius = (ray.bends ? 0.5 * (radii[k] + radii[across]) : radii[k]) / ray.own;
-      if (radius > 1 && is_others(i, end)) continue;
-      lowest = std::min(lowest, radius);
-      result.ring.consider(radius - lowest, i, ray.along, ray.azimuth);
+      const double measured = ray.bends ? half_thickness : radius;
+      if (measured > std::max(1.0, lowest + result.ring.value) && is_others(i, end)) continue;
+      lowest = std::min(lowest, measured);
+      result.ring.consider(measured - lowest, i, ray.along, ray.azimuth);
     }
   }
   return result;
