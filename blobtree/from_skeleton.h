@@ -56,7 +56,8 @@ struct TreeOptions {
   JunctionKind junction = JunctionKind::kRidge;
   JointKind joint = JointKind::kFaded;
   BlendingKind blending = BlendingKind::kSubtrees;
-  /// Up to this turn faded joints round their corners; past it the axis keeps its radius around a sharp one.
+  /// Up to this turn, twice as much at forks, faded joints round their corners; past it the axis keeps its radius
+  /// around a sharp one.
   double round_turn_degrees = 30;
   /// The shape of ridges, but where the skeleton or a rule has another one for a fork.
   ContactShape contact;

@@ -88,7 +88,7 @@ const Marked* find(const std::vector<Marked>& all, std::size_t i) {
 Plant::Plant(const Skeleton& skeleton, std::span<const Arc> arcs, const TreeOptions& options)
     : skeleton_(skeleton), arcs_(arcs), options_(options), table_(child_table(skeleton)) {
   if (options.joint == JointKind::kFaded) {
-    plans_ = plan_joints(skeleton, standing_children(skeleton, table_), options.round_turn_degrees);
+    plans_ = plan_joints(skeleton, arcs, standing_children(skeleton, table_), options.round_turn_degrees);
   }
   const auto require_bare = [&](const auto& marked, const char* what) {
     InternodeId last = kNoInternode;

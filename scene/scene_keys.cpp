@@ -482,7 +482,8 @@ void add_surface_keys(Keys& keys) {
       "What a junction joins: all that grows from it, or only the internodes that meet there."));
   keys.push_back(number(
       "junction.round_turn_degrees", from_to(0, 180), [](auto& s) -> auto& { return s.tree.round_turn_degrees; },
-      "Up to this turn faded joints round their corners; past it the axis keeps its radius around a sharp one."));
+      "Up to this turn, twice as much at forks, faded joints round their corners; past it the axis keeps its radius "
+      "around a sharp one."));
   keys.push_back(number(
       "junction.width", {0, 0.5, true, false}, [](auto& s) -> auto& { return s.tree.contact.width; },
       "Extent of the swelling beside a ridge, in field units."));

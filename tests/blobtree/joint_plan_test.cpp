@@ -4,6 +4,7 @@
 
 #include "blobtree/from_skeleton.h"
 #include "blobtree/joint_plan.h"
+#include "blobtree/primitive.h"
 #include "tests/support/skeletons.h"
 
 using namespace barkridge;
@@ -52,6 +53,27 @@ Skeleton passing_twigs(double distance) {
   return skeleton;
 }
 
+bool is_union_of_round_cones(const Skeleton& skeleton) {
+  const auto field = compile(tree_from_skeleton(skeleton));
+  Vec3 lowest = skeleton.internodes[0].base, highest = lowest;
+  for (const Internode& a : skeleton.internodes) {
+    lowest = glm::min(lowest, glm::min(a.base, a.tip) - 2.0);
+    highest = glm::max(highest, glm::max(a.base, a.tip) + 2.0);
+  }
+  RandomSource random(7);
+  int different = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 p = random.in_box({lowest, highest});
+    double outside = 1e9;
+    for (const Internode& a : skeleton.internodes) {
+      const Sphere sphere = nearest_sphere(Cone{a.base, a.tip, a.base_radius, a.tip_radius}, p);
+      outside = std::min(outside, glm::distance(sphere.center, p) - sphere.radius);
+    }
+    if (std::abs(outside) > 1e-4) different += (value(*field, p) >= kIsoValue) != (outside < 0);
+  }
+  return different == 0;
+}
+
 TreeOptions smooth(BlendingKind blending) {
   TreeOptions options;
   options.junction = JunctionKind::kSmooth;
@@ -79,26 +101,59 @@ TEST_CASE("an axis keeps its radius around the outside of a sharp turn and acros
   }
 }
 
-TEST_CASE("short internodes that turn sharply are the union of their round cones") {
-  const Skeleton skeleton = zigzag(0.5, 70, 12);
-  const auto field = compile(tree_from_skeleton(skeleton));
-  RandomSource random(7);
-  for (int i = 0; i < 2000; ++i) {
-    const Vec3 p = random.in_box({Vec3(-2, -2, -2), Vec3(5, 7, 2)});
-    double distance = 1e9;
-    for (const Internode& a : skeleton.internodes) {
-      const Vec3 axis = a.tip - a.base;
-      const double t = std::clamp(glm::dot(p - a.base, axis) / glm::dot(axis, axis), 0.0, 1.0);
-      distance = std::min(distance, glm::distance(p, a.base + t * axis));
+TEST_CASE("what has no room to fade is the union of its round cones") {
+  const Skeleton short_zigzag = zigzag(0.5, 70, 12);
+  CHECK(is_union_of_round_cones(short_zigzag));
+  // A shortened internode would leave a gap to the next but one.
+  Skeleton short_link = zigzag(6, 100, 3);
+  const Vec3 link = 0.3 * glm::normalize(short_link.internodes[1].tip - short_link.internodes[1].base);
+  short_link.internodes[1].tip = short_link.internodes[2].base = short_link.internodes[1].base + link;
+  short_link.internodes[2].tip = link + Vec3(6, 6, 0);
+  CHECK(is_union_of_round_cones(short_link));
+  // Back beside the parent; thinner; as short tips and feet; into a cone.
+  CHECK(is_union_of_round_cones(junction({{110, 0, 1}})));
+  CHECK(is_union_of_round_cones(junction({{50, 0, 0.8}})));
+  CHECK(is_union_of_round_cones(junction({{20, 0, 1}}, 0.8)));
+  Skeleton cone = junction({{20, 0, 1}});
+  cone.internodes[1].tip_radius = 0.2;
+  CHECK(is_union_of_round_cones(cone));
+  // And what has room is not.
+  CHECK(!is_union_of_round_cones(junction({{50, 0, 1}})));
+  CHECK(!is_union_of_round_cones(junction({{20, 0, 1}})));
+}
+
+TEST_CASE("a tapering axis keeps its radius across the plane of a sharp turn") {
+  // As much wood at the joint as the taper says, on both sides of it.
+  for (const double taper : {-1. / 80, -1. / 160, 1. / 160, 1. / 80}) {
+    Skeleton skeleton = junction({{60, 0, 1}});
+    skeleton.internodes[0].base_radius = 1 - 10 * taper;
+    skeleton.internodes[1].tip_radius = 1 + 10 * taper;
+    REQUIRE(plan_joints(skeleton, {}, child_table(skeleton), 30)[0].shortening > 0);
+    const auto field = compile(tree_from_skeleton(skeleton));
+    CAPTURE(taper);
+    for (int i = 0; i <= 80; ++i) {
+      const double y = -0.05 * i;
+      CHECK(surface_radius(*field, Vec3(0, y, 0), Vec3(0, 0, 1)) == Approx(1 + taper * y).margin(6e-3));
     }
-    if (std::abs(distance - 1) < 1e-4) continue;
-    CHECK((value(*field, p) >= kIsoValue) == (distance < 1));
   }
 }
 
+TEST_CASE("tangents tell whether an axis turns, not chords") {
+  // Two quarters of a circle: the chords turn by a right angle, the arcs not at all.
+  Skeleton skeleton;
+  skeleton.internodes.push_back({Vec3(0), Vec3(10, 10, 0), 1, 1});
+  skeleton.internodes.push_back({Vec3(10, 10, 0), Vec3(20, 0, 0), 1, 1, 0});
+  const Vec3 first = glm::normalize(Vec3(-1, 1, 0)), second = glm::normalize(Vec3(1, 1, 0));
+  const std::vector<Arc> arcs{{first, 90}, {second, 90}};
+  CHECK(plan_joints(skeleton, arcs, child_table(skeleton), 30)[0].fades_at_tip);
+  CHECK(!plan_joints(skeleton, {}, child_table(skeleton), 30)[0].fades_at_tip);
+}
+
 TEST_CASE("gentle turns and symmetric forks fade") {
-  for (const Skeleton& skeleton : {zigzag(3, 25, 9), fork(2, 60), fork(5, 80)}) {
-    const std::vector<JointPlan> plans = plan_joints(skeleton, child_table(skeleton), 30);
+  // The leader of the last turns by 55 degrees, and all of it, with the other branch's cross-section, by 45.
+  const Skeleton sympodium = junction({{55, 0, 0.9}, {15, 180, 0.45}});
+  for (const Skeleton& skeleton : {zigzag(3, 25, 9), fork(2, 60), fork(5, 80), sympodium}) {
+    const std::vector<JointPlan> plans = plan_joints(skeleton, {}, child_table(skeleton), 30);
     CHECK(plans[0].fades_at_tip);
     for (std::size_t i = 1; i < plans.size(); ++i) CHECK(plans[i].fades_at_base);
   }

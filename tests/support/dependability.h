@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "blobtree/field.h"
+#include "blobtree/primitive.h"
 #include "tests/support/skeletons.h"
 
 namespace barkridge::test {
@@ -75,15 +76,20 @@ struct Worst {
 
 struct Dependability {
   /// How far the surface lies from the nearest axis beyond the thickest radius that meets there (at a junction within
-  /// three of that, or the internode's own), in units of it, on sides where no other axis lies and none passes by.
+  /// three of that along the tree, however many internodes that is, or the internode's own), in units of it, on sides
+  /// where no other axis lies and none passes by.
   Worst swelling;
   /// How far half the solid's thickness, along a line across the axis, falls short of the internode's own radius, in
-  /// units of that; up to a tenth of a radius before its fork.
+  /// units of that; up to a tenth of a radius before its fork. Away from forks and gentle turns, as for rings, it is
+  /// the radius itself. The own radius is that of the internode by itself, the spheres along its axis, which where it
+  /// tapers reach farther across than the sphere there.
   Worst necking;
   /// The same of the radius by itself: more than that where a corner is rounded. No defect.
   Worst rounding;
   /// How much the radius rises after a dip along an internode, in units of its own, on such sides and farther than
-  /// three of the thickest radii from forks and tips.
+  /// three of the thickest radii from forks and tips. Where the axis turns by up to 30 degrees within three radii it is
+  /// half the thickness, as for necks: a rounded corner lies beside its axis and is as thick. Where another internode
+  /// by itself reaches the place, the surface is that one's, and rises as it does.
   Worst ring;
   /// Places on the axis that are outside of the solid.
   int missing = 0;
@@ -97,6 +103,19 @@ inline double distance_to(const Internode& a, const Vec3& p, Vec3& nearest) {
   const Vec3 axis = a.tip - a.base;
   nearest = a.base + std::clamp(glm::dot(p - a.base, axis) / glm::dot(axis, axis), 0.0, 1.0) * axis;
   return glm::distance(p, nearest);
+}
+
+// How far an internode's round cone, the spheres along it, reaches across from its axis, at a share of its length.
+inline double reach_across(const Internode& a, double along) {
+  const double length = glm::distance(a.base, a.tip);
+  const double taper = (a.tip_radius - a.base_radius) / length;
+  const double y = along * length, radius = a.base_radius + taper * y;
+  const double flank = radius / std::sqrt(std::max(1e-9, 1 - taper * taper));
+  const double center = y + taper * flank * flank / radius;  // of the sphere that reaches farthest
+  if (0 <= center && center <= length) return flank;
+  const double from_base = std::sqrt(std::max(0.0, a.base_radius * a.base_radius - y * y));
+  const double from_tip = std::sqrt(std::max(0.0, a.tip_radius * a.tip_radius - (length - y) * (length - y)));
+  return std::max(from_base, from_tip);
 }
 
 // Lengths of ways along a tree.
@@ -134,7 +153,8 @@ class Ways {
 struct Ray {
   Vec3 origin, direction;
   double own, along, azimuth;
-  bool away;  // from forks and tips
+  bool away;   // from forks and tips
+  bool bends;  // near a gentle corner
 };
 
 // Where the rays leave the solid for the first time, or `most`. Rays that start outside: 0.
@@ -174,6 +194,7 @@ inline Dependability dependability_of(const Skeleton& skeleton, const Field& fie
   const auto& all = skeleton.internodes;
   const ChildTable table = child_table(skeleton);
   const auto children = [&](std::size_t i) { return table.first[i + 1] - table.first[i]; };
+  const Ways ways(skeleton);
   // By internode: the thickest radius that meets at its tip. What starts within a thicker one's body meets that, too.
   std::vector<double> at_tip(all.size(), 0);
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -186,16 +207,27 @@ inline Dependability dependability_of(const Skeleton& skeleton, const Field& fie
   const auto at_base = [&](const Internode& a) {
     return a.parent == kNoInternode ? a.base_radius : at_tip[static_cast<std::size_t>(a.parent)];
   };
-  // The distance of a place from an axis, in units of the thickest radius that meets there.
-  const auto distance_in_radii = [&](std::size_t i, const Vec3& p) {
-    const Internode& a = all[i];
-    Vec3 nearest;
-    const double distance = distance_to(a, p, nearest);
-    const double from_base = glm::distance(a.base, nearest), to_tip = glm::distance(a.tip, nearest);
-    double thickest = a.base_radius + (a.tip_radius - a.base_radius) * from_base / (from_base + to_tip);
-    if (from_base < 3 * at_base(a)) thickest = std::max(thickest, at_base(a));
-    if (to_tip < 3 * at_tip[i]) thickest = std::max(thickest, at_tip[i]);
-    return distance / thickest;
+  // How far a place lies beyond the thickest radius that meets there, in units of it, from whichever axis it is least;
+  // any number up to `least` if less than that.
+  const auto beyond = [&](const Vec3& p, double least) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < all.size() && lowest > least; ++i) {
+      const Internode& a = all[i];
+      Vec3 nearest;
+      const double distance = distance_to(a, p, nearest);
+      const double own = reach_across(a, glm::distance(a.base, nearest) / glm::distance(a.base, a.tip));
+      lowest = std::min(lowest, distance / own - 1);
+    }
+    for (std::size_t i = 0; i < all.size() && lowest > least; ++i) {
+      Vec3 nearest;
+      const double distance = distance_to(all[i], p, nearest);
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        if (distance < (1 + lowest) * at_tip[k] && ways.between(i, nearest, k, all[k].tip) < 3 * at_tip[k]) {
+          lowest = distance / at_tip[k] - 1;
+        }
+      }
+    }
+    return lowest;
   };
   const auto is_away = [&](const Vec3& p) {
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -203,9 +235,27 @@ inline Dependability dependability_of(const Skeleton& skeleton, const Field& fie
     }
     return glm::distance(p, all[0].base) >= 3 * all[0].base_radius;
   };
+  // Within three radii of where an axis turns gently.
+  const auto bends_at = [&](const Vec3& p) {
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (children(k) != 1 || glm::distance(p, all[k].tip) >= 3 * at_tip[k]) continue;
+      const Internode& child = all[static_cast<std::size_t>(table.children[table.first[k]])];
+      const double cosine = glm::dot(glm::normalize(all[k].tip - all[k].base), glm::normalize(child.tip - child.base));
+      if (cosine > std::cos(30 * kDegree)) return true;
+    }
+    return false;
+  };
+  // Whether another internode by itself reaches a place.
+  const auto is_others = [&](std::size_t i, const Vec3& end) {
+    for (std::size_t b = 0; b < all.size(); ++b) {
+      if (b == i) continue;
+      const Sphere sphere = nearest_sphere(Cone{all[b].base, all[b].tip, all[b].base_radius, all[b].tip_radius}, end);
+      if (glm::distance(sphere.center, end) < 1.001 * sphere.radius) return true;
+    }
+    return false;
+  };
   // What reaches a ray's end and lies on its side makes a fillet; what the tree's way to is much longer than the
   // straight one passes by.
-  const Ways ways(skeleton);
   const auto is_free = [&](std::size_t i, const Ray& ray, const Vec3& end) {
     for (std::size_t b = 0; b < all.size(); ++b) {
       Vec3 nearest;
@@ -232,33 +282,39 @@ inline Dependability dependability_of(const Skeleton& skeleton, const Field& fie
       for (int k = 0; k <= kAlong; ++k) {
         const double y = static_cast<double>(k) / kAlong;
         const Vec3 origin = a.base + y * (a.tip - a.base);
-        rays.push_back({origin, std::cos(turn) * side + std::sin(turn) * other,
-                        a.base_radius + y * (a.tip_radius - a.base_radius), y, turn, is_away(origin)});
+        rays.push_back({origin, std::cos(turn) * side + std::sin(turn) * other, reach_across(a, y), y, turn,
+                        is_away(origin), bends_at(origin)});
       }
     }
     const std::vector<double> radii = exits(field, rays, kMost * std::max(at_base(a), at_tip[i]));
+    std::vector<bool> free(rays.size());
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+      free[k] = is_free(i, rays[k], rays[k].origin + radii[k] * rays[k].direction);
+    }
     double lowest = 0;
     for (std::size_t k = 0; k < rays.size(); ++k) {
       const Ray& ray = rays[k];
-      if (ray.along == 0) lowest = 1e9;
+      if (ray.along == 0) lowest = std::numeric_limits<double>::infinity();
       if (radii[k] <= 0) {
         ++result.missing;
         continue;
       }
+      const std::size_t across = (k + rays.size() / 2) % rays.size();
+      const double radius = radii[k] / ray.own, half_thickness = 0.5 * (radii[k] + radii[across]) / ray.own;
       const bool before_fork = children(i) > 0 && (1 - ray.along) * length < 0.1 * a.tip_radius;
       if (!before_fork) {
-        const double opposite = radii[(k + rays.size() / 2) % rays.size()];
-        result.necking.consider(1 - 0.5 * (radii[k] + opposite) / ray.own, i, ray.along, ray.azimuth);
-        result.rounding.consider(1 - radii[k] / ray.own, i, ray.along, ray.azimuth);
+        const bool off_axis = ray.bends || !ray.away;
+        result.necking.consider(1 - (off_axis ? half_thickness : radius), i, ray.along, ray.azimuth);
+        result.rounding.consider(1 - radius, i, ray.along, ray.azimuth);
       }
+      if (!free[k]) continue;
       const Vec3 end = ray.origin + radii[k] * ray.direction;
-      if (!is_free(i, ray, end)) continue;
-      double outside = std::numeric_limits<double>::infinity();
-      for (std::size_t b = 0; b < all.size(); ++b) outside = std::min(outside, distance_in_radii(b, end));
-      result.swelling.consider(outside - 1, i, ray.along, ray.azimuth);
-      if (!ray.away) continue;
-      lowest = std::min(lowest, radii[k] / ray.own);
-      result.ring.consider(radii[k] / ray.own - lowest, i, ray.along, ray.azimuth);
+      result.swelling.consider(beyond(end, result.swelling.value), i, ray.along, ray.azimuth);
+      if (!ray.away || (ray.bends && !free[across])) continue;
+      const double measured = ray.bends ? half_thickness : radius;
+      if (measured > std::max(1.0, lowest + result.ring.value) && is_others(i, end)) continue;
+      lowest = std::min(lowest, measured);
+      result.ring.consider(measured - lowest, i, ray.along, ray.azimuth);
     }
   }
   return result;
