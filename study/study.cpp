@@ -138,7 +138,7 @@ FineSurface fine_surface(const StudiedModel& model, const Candidate& candidate) 
     };
   }
   return [control = candidate.control](const Box& box) {
-    return limit_surface(patch_for(subdivide(patch_for(*control, box), kFinestLevel), box), kMoreLevels).mesh;
+    return limit_surface(patch_for(subdivide(patch_for(*control, box), kFinestLevel), box), kMoreLevels);
   };
 }
 

@@ -21,7 +21,7 @@ struct HullRing {
 };
 
 /// How many times farther from the axes than the branches are thick a joint's surface may be.
-inline constexpr double kJointReach = 1.5;
+inline constexpr double kJointReach = 1.25;
 
 /// The direction of a ring's vertex `j` of `count`.
 Vec3 ring_direction(const HullRing& ring, int j, int count);

@@ -118,7 +118,7 @@ TEST_CASE(
 
 TEST_CASE("CGAL finds no sails between branches that leave a joint at very different distances") {
   // Before joints kept to their branches' reach, these did, into limbs that pass by.
-  for (const std::uint64_t seed : {795, 5058, 6644}) {
+  for (const std::uint64_t seed : {795, 3573, 5488, 5531}) {
     INFO("seed " << seed);
     const Skeleton skeleton = random_skeleton(seed, 1 + static_cast<int>(seed % 60));
     REQUIRE(crossing_limbs(skeleton) == 0);
