@@ -127,7 +127,7 @@ void measure_case(const ControlMesh& mesh, std::size_t internodes, int levels, c
   std::vector<Measurement> measurements{[&] { return seconds_of([&] { return opensubdiv(mesh, levels); }); }};
   for (const int threads : options.threads) {
     measurements.push_back(on_threads(threads, [&] { return subdivide(mesh, levels).triangles.size(); }));
-    measurements.push_back(on_threads(threads, [&] { return limit_surface(mesh, levels).mesh.triangles.size(); }));
+    measurements.push_back(on_threads(threads, [&] { return limit_surface(mesh, levels).triangles.size(); }));
   }
   const std::vector<Samples> samples = take_turns(measurements, options.turns);
   const double million = 1e-6 * static_cast<double>(mesh.triangles.size()) * std::pow(4.0, levels);

@@ -1,9 +1,10 @@
-#include "cli/machine_memory.h"
+#include "base/machine_memory.h"
 #include "cli/output_check.h"
 #include "cli/progress_bar.h"
 #include "cli/verbs.h"
 #include "cli/warning.h"
 #include "cli/work_statistics.h"
+#include "lsystem/limbs.h"
 #include "lsystem/prune.h"
 #include "mesh/write.h"
 #include "scene/pipeline.h"
@@ -69,6 +70,7 @@ void run(const MeshArguments& arguments) {
   for (const Frame& frame : frames) {
     const Scene now = frame.time ? at_time(scene, frame.time) : scene;
     const Made made = make(now, bar, frame.title, clock, statistics);
+    if (!arguments.statistics.empty()) statistics.crossing_limbs = crossing_limbs(made.model.skeleton);
     for (const std::string& output : frame.outputs) write_surface(made.mesh, now, made.model, output);
   }
   if (!arguments.statistics.empty()) statistics.write(arguments.statistics);

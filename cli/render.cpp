@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "base/error.h"
-#include "cli/machine_memory.h"
+#include "base/machine_memory.h"
 #include "cli/output_check.h"
 #include "cli/progress_bar.h"
 #include "cli/verbs.h"

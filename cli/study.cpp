@@ -66,8 +66,9 @@ MeshRunner runner_in(const fs::path& folder, int threads) {
     run_self(arguments);
     const auto values = nlohmann::json::parse(read_file(statistics));
     fs::remove(statistics);
-    return RunCosts{values.at("internodes"),       values.at("triangles"),     values.at("peak_bytes"),
-                    values.at("skeleton_seconds"), values.at("build_seconds"), values.at("surface_seconds")};
+    return RunCosts{values.at("internodes"),     values.at("crossing_limbs"),   values.at("triangles"),
+                    values.at("peak_bytes"),     values.at("skeleton_seconds"), values.at("build_seconds"),
+                    values.at("surface_seconds")};
   };
 }
 

@@ -15,6 +15,7 @@ std::size_t peak_resident_bytes() {
 
 void WorkStatistics::write(const std::string& path) const {
   const nlohmann::ordered_json values = {{"internodes", internodes},
+                                         {"crossing_limbs", crossing_limbs},
                                          {"control_triangles", control_triangles},
                                          {"triangles", triangles},
                                          {"skeleton_seconds", skeleton_seconds},

@@ -11,9 +11,9 @@ namespace barkridge::cli {
 std::size_t peak_resident_bytes();
 
 /// Seconds from reading the scene to the skeleton, from there to a compiled field or a control mesh, and from there to
-/// triangles; writing files does not count.
+/// triangles; writing files does not count. Limbs that cross are those of `crossing_limbs` in the skeleton.
 struct WorkStatistics {
-  std::size_t internodes = 0, control_triangles = 0, triangles = 0;
+  std::size_t internodes = 0, crossing_limbs = 0, control_triangles = 0, triangles = 0;
   double skeleton_seconds = 0, build_seconds = 0, surface_seconds = 0;
 
   /// As one JSON object, with the peak of memory, whole or not at all. Throws `IoError`.

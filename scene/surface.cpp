@@ -66,19 +66,12 @@ Mesh refine(const Scene& scene, const ControlMesh& control, std::size_t max_tria
   const SurfaceOptions& wanted = scene.surface;
   if (wanted.noise.amplitude > 0) return to_mesh(subdivide_with_noise(control, wanted.level, wanted.noise, options));
   if (!wanted.max_angle_degrees && !wanted.limit) return to_mesh(subdivide(control, wanted.level, options));
-  LimitSurface surface;
-  if (wanted.max_angle_degrees) {
-    AdaptiveOptions adaptive;
-    adaptive.max_angle_degrees = *wanted.max_angle_degrees;
-    adaptive.max_level = wanted.level;
-    adaptive.loop = options;
-    surface = subdivide_adaptively(control, adaptive);
-  } else {
-    surface = limit_surface(control, wanted.level, options);
-  }
-  surface.mesh.texture = std::move(surface.texture);
-  surface.mesh.texture_triangles = std::move(surface.texture_triangles);
-  return std::move(surface.mesh);
+  if (!wanted.max_angle_degrees) return limit_surface(control, wanted.level, options);
+  AdaptiveOptions adaptive;
+  adaptive.max_angle_degrees = *wanted.max_angle_degrees;
+  adaptive.max_level = wanted.level;
+  adaptive.loop = options;
+  return subdivide_adaptively(control, adaptive);
 }
 
 Mesh implicit_mesh(const Scene& scene, const Model& model, const Field& field, std::size_t max_triangles,

@@ -1,22 +1,21 @@
 #include "study/machine.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
 #include <thread>
 
+#include "base/machine_memory.h"
 #include "base/version.h"
 #include "study/commit.h"
 
 namespace barkridge {
 
 std::vector<std::pair<std::string, std::string>> machine_facts() {
-  const double bytes = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
   return {{"processor", value_in("/proc/cpuinfo", "model name")},
           {"cores", fmt::format("{}", std::max(1u, std::thread::hardware_concurrency()))},
-          {"memory", fmt::format("{:.0f} GiB", bytes / (1u << 30))},
+          {"memory", fmt::format("{:.0f} GiB", static_cast<double>(machine_memory()) / (1u << 30))},
           {"compiler", "g++ " __VERSION__},
           {"version", version()},
           {"commit", BARKRIDGE_COMMIT}};

@@ -25,9 +25,12 @@ struct PixelError {
 struct Measurement {
   std::string model, method, setting;
   std::size_t internodes = 0, triangles = 0, peak_bytes = 0;
+  /// Pairs of limbs of the skeleton that cross, so that separate skins must.
+  std::size_t crossing_limbs = 0;
   /// From text to skeleton; from there to a compiled field or a control mesh; from there to triangles; and all three.
   Times skeleton, build, surface, total;
   std::optional<PixelError> error;
+  double pixel = 0;  ///< its width in the model's unit
   /// Pairs of triangles that cross, where they were counted.
   std::optional<std::size_t> crossings;
 

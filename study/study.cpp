@@ -138,7 +138,7 @@ FineSurface fine_surface(const StudiedModel& model, const Candidate& candidate) 
     };
   }
   return [control = candidate.control](const Box& box) {
-    return limit_surface(patch_for(subdivide(patch_for(*control, box), kFinestLevel), box), kMoreLevels).mesh;
+    return limit_surface(patch_for(subdivide(patch_for(*control, box), kFinestLevel), box), kMoreLevels);
   };
 }
 
@@ -171,6 +171,7 @@ Measurement measurement_of(const StudyScene& named, const Candidate& candidate) 
   m.method = candidate.setting.method;
   m.setting = candidate.setting.name();
   m.internodes = candidate.runs.front().internodes;
+  m.crossing_limbs = candidate.runs.front().crossing_limbs;
   m.triangles = candidate.runs.front().triangles;
   for (const RunCosts& run : candidate.runs) m.peak_bytes = std::max(m.peak_bytes, run.peak_bytes);
   m.skeleton = times_over(candidate.runs, [](const RunCosts& r) { return r.skeleton; });
@@ -208,6 +209,7 @@ void measure_scene(const StudyScene& named, const MeshRunner& run, const StudyOp
       const auto i = static_cast<std::size_t>(candidate - first);
       Measurement m = measurement_of(named, *candidate);
       if (errors[i].count > 0) {
+        m.pixel = model.pixel;
         m.error = PixelError{errors[i].largest / model.pixel, errors[i].root_mean_square() / model.pixel};
       }
       if (meshes[i].triangles.size() <= options.most_for_crossings) m.crossings = crossing_pairs(meshes[i]);
@@ -224,7 +226,8 @@ void measure_scene(const StudyScene& named, const MeshRunner& run, const StudyOp
 }  // namespace
 
 std::string StudySetting::name() const {
-  return method == "implicit" ? fmt::format("cells of {:g} radii", cell_factor) : fmt::format("level {}", level);
+  if (method != "implicit") return fmt::format("level {}", level);
+  return cell_factor == 1 ? "cells of 1 radius" : fmt::format("cells of {:g} radii", cell_factor);
 }
 
 StudyFindings measure(const std::vector<StudyScene>& scenes, const MeshRunner& run, const StudyOptions& options) {

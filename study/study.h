@@ -29,7 +29,7 @@ struct StudySetting {
 
 /// What one run in a process of its own took; see `mesh --statistics`.
 struct RunCosts {
-  std::size_t internodes = 0, triangles = 0, peak_bytes = 0;
+  std::size_t internodes = 0, crossing_limbs = 0, triangles = 0, peak_bytes = 0;
   double skeleton = 0, build = 0, surface = 0;
 };
 

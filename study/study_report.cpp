@@ -15,18 +15,19 @@ using Cell = nlohmann::ordered_json;
 Cell number_or_nothing(std::optional<double> x) { return x ? Cell(*x) : Cell(); }
 
 ReportTable measurement_table(const StudyFindings& findings) {
-  ReportTable table{
-      "measurements",
-      "Every method at every resolution: medians of the runs, in processes of their own",
-      {"model", "method", "setting", "internodes", "skeleton s", "build s", "surface s", "total s", "total least",
-       "total most", "triangles", "triangles/s", "peak MB", "error px (rms)", "error px (largest)", "crossings"},
-      {}};
+  ReportTable table{"measurements",
+                    "Every method at every resolution: medians of the runs, in processes of their own",
+                    {"model", "method", "setting", "internodes", "skeleton s", "build s", "surface s", "total s",
+                     "total least", "total most", "triangles", "triangles/s", "peak MB", "error (rms)",
+                     "error (largest)", "error px (rms)", "error px (largest)", "crossing limbs", "crossings"},
+                    {}};
   for (const Measurement& m : findings.measurements) {
-    table.rows.push_back({m.model, m.method, m.setting, m.internodes, m.skeleton.median, m.build.median,
-                          m.surface.median, m.total.median, m.total.least, m.total.most, m.triangles,
-                          m.triangles_per_second(), static_cast<double>(m.peak_bytes) / 1e6,
-                          m.error ? Cell(m.error->root_mean_square) : Cell(), m.error ? Cell(m.error->largest) : Cell(),
-                          m.crossings ? Cell(*m.crossings) : Cell()});
+    table.rows.push_back(
+        {m.model, m.method, m.setting, m.internodes, m.skeleton.median, m.build.median, m.surface.median,
+         m.total.median, m.total.least, m.total.most, m.triangles, m.triangles_per_second(),
+         static_cast<double>(m.peak_bytes) / 1e6, m.error ? Cell(m.error->root_mean_square * m.pixel) : Cell(),
+         m.error ? Cell(m.error->largest * m.pixel) : Cell(), m.error ? Cell(m.error->root_mean_square) : Cell(),
+         m.error ? Cell(m.error->largest) : Cell(), m.crossing_limbs, m.crossings ? Cell(*m.crossings) : Cell()});
   }
   return table;
 }
@@ -38,7 +39,7 @@ ReportTable headline_table(const StudyFindings& findings) {
                     {"model", "implicit", "implicit s", "subdivision", "subdivision s", "implicit/subdivision"},
                     {}};
   const auto name = [](const Measurement* m) {
-    return m ? Cell(m->method + ", " + m->setting) : Cell("none is good enough");
+    return m ? Cell(m->method + ", " + m->setting) : Cell("none measured is good enough");
   };
   const auto cost = [](const Measurement* m) { return m ? Cell(m->build.median + m->surface.median) : Cell(); };
   for (const Headline& h : headlines(findings.measurements)) {
@@ -118,7 +119,15 @@ Report report_of(const StudyFindings& findings, const std::vector<StudyScene>& s
       kErrorPixels, kEqualQualityPixels)};
   report.sections.push_back(std::move(headline));
 
-  ReportSection all{"All measurements", findings.notes, {measurement_table(findings)}, {growth_plot(findings)}, {}};
+  ReportSection all{
+      "All measurements",
+      {"Errors are in the model's unit and in pixels (px). Crossing limbs are pairs of internodes without a "
+       "common end whose axes come nearer than the sum of their radii: what dresses each by itself must "
+       "cross there. Crossings are pairs of triangles that do."},
+      {measurement_table(findings)},
+      {growth_plot(findings)},
+      {}};
+  all.paragraphs.insert(all.paragraphs.end(), findings.notes.begin(), findings.notes.end());
   for (const StudyScene& scene : scenes) all.plots.push_back(error_plot(findings, scene.name));
   report.sections.push_back(std::move(all));
 

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "subdivision/adaptive_closing.h"
 #include "subdivision/adaptive_leaves.h"
+#include "subdivision/to_mesh.h"
 
 namespace barkridge {
 
@@ -32,7 +33,7 @@ struct Candidate {
   const ClosedLeaves& closed;
   HalfEdges mesh;
 
-  glm::dvec3 position(std::uint32_t v) const { return glm::dvec3(leaves.surface.mesh.positions[v]); }
+  glm::dvec3 position(std::uint32_t v) const { return glm::dvec3(leaves.surface.positions[v]); }
   bool is_sharp(std::uint32_t h) const { return closed.pieces[h / 3].sharp[h % 3]; }
   // Whether the edge along `h` is a sharp crease or a boundary.
   bool is_crease(std::uint32_t h) const { return mesh.twin(h) == kNoHalfEdge || is_sharp(h); }
@@ -129,18 +130,19 @@ std::size_t add_splits(const std::vector<Leaf>& leaves, const std::vector<bool>&
   return count;
 }
 
-LimitSurface finish(Leaves leaves, const ClosedLeaves& closed) {
-  LimitSurface surface = std::move(leaves.surface);
+Mesh finish(Leaves leaves, const ClosedLeaves& closed) {
+  Mesh surface = std::move(leaves.surface);
   for (const ClosedLeaves::Piece& piece : closed.pieces) {
-    surface.mesh.triangles.push_back(piece.vertices);
+    surface.triangles.push_back(piece.vertices);
     if (!surface.texture.empty()) surface.texture_triangles.push_back(piece.texture);
   }
+  keep_attributes(surface, std::move(leaves.internodes), std::move(leaves.ages));
   return surface;
 }
 
 }  // namespace
 
-LimitSurface subdivide_adaptively(const ControlMesh& mesh, const AdaptiveOptions& options) {
+Mesh subdivide_adaptively(const ControlMesh& mesh, const AdaptiveOptions& options) {
   check(options);
   check_triangle_count(mesh.triangles.size(), 0, options.loop);
   const LoopLevel coarse = coarse_level(mesh, options.loop);
@@ -152,7 +154,7 @@ LimitSurface subdivide_adaptively(const ControlMesh& mesh, const AdaptiveOptions
     std::vector<HalfEdges::Triangle> triangles;
     triangles.reserve(closed.pieces.size());
     for (const ClosedLeaves::Piece& piece : closed.pieces) triangles.push_back(piece.vertices);
-    const Candidate candidate{leaves, closed, half_edges(std::move(triangles), leaves.surface.mesh.positions.size())};
+    const Candidate candidate{leaves, closed, half_edges(std::move(triangles), leaves.surface.positions.size())};
     const std::vector<bool> split = find_violations(candidate, tolerance);
     const std::size_t splits = add_splits(leaves.leaves, split, to_split);
     if (splits == 0) return finish(std::move(leaves), closed);

@@ -23,10 +23,11 @@ struct AdaptiveOptions {
 /// on the limit surface, whatever the level of its triangles, so there are no steps between fine and coarse.
 ///
 /// Without cracks: where a triangle's neighbours are finer, it is divided to meet all vertices along its sides. A
-/// closed mesh stays closed, and charts of texture meet as they did. The result is the same for any number of threads.
+/// closed mesh stays closed, and charts of texture meet as they did. Internodes and ages go to new vertices as by
+/// `subdivide`, and become attributes of the mesh. The result is the same for any number of threads.
 ///
 /// Throws as `subdivide`, and `InputError` for tolerances out of range. A round splits all triangles that violate the
 /// tolerance; there are a few more than levels, each in proportion to its result.
-LimitSurface subdivide_adaptively(const ControlMesh& mesh, const AdaptiveOptions& options = {});
+Mesh subdivide_adaptively(const ControlMesh& mesh, const AdaptiveOptions& options = {});
 
 }  // namespace barkridge

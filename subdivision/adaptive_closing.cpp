@@ -118,7 +118,7 @@ class LeafCloser {
   }
 
   float distance(const Corner& a, const Corner& b) const {
-    const auto& positions = leaves_.surface.mesh.positions;
+    const auto& positions = leaves_.surface.positions;
     return glm::length(positions[a.vertex] - positions[b.vertex]);
   }
 

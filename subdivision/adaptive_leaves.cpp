@@ -31,8 +31,7 @@ std::vector<std::uint32_t> count_up(std::size_t count) {
 
 Level first_level(const LoopLevel& coarse) {
   Level level;
-  level.mesh.surface = coarse.surface;
-  level.mesh.charts = coarse.charts;
+  level.mesh = coarse;
   level.numbers.resize(coarse.surface.mesh.triangles.size());
   std::iota(level.numbers.begin(), level.numbers.end(), std::uint64_t{0});
   level.leaf_or_split.assign(level.numbers.size(), true);
@@ -61,6 +60,32 @@ void add_limits(const Sheet<glm::vec2>& sheet, const std::vector<std::uint32_t>&
     if (places[i] == kNone || places[i] < known) return;
     texture[places[i]] = limit_texture(sheet, static_cast<std::uint32_t>(i));
   });
+}
+
+// Puts what vertices that are new in the result carry, `values`, into it; nothing where nothing is carried.
+template <class Value>
+void add_carried(const std::vector<Value>& values, const std::vector<std::uint32_t>& places, std::size_t known,
+                 std::size_t count, std::vector<Value>& result) {
+  if (values.empty()) return;
+  result.resize(count);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i] != kNone && places[i] >= known) result[places[i]] = values[i];
+  }
+}
+
+void add_vertices(const Level& level, std::size_t known, std::size_t count, Leaves& result) {
+  add_limits(level.mesh.surface, level.vertices, known, count, result.surface);
+  add_carried(level.mesh.internodes, level.vertices, known, count, result.internodes);
+  add_carried(level.mesh.ages, level.vertices, known, count, result.ages);
+}
+
+template <class Value>
+std::vector<Value> picked(const std::vector<Value>& values, const std::vector<std::uint32_t>& which) {
+  std::vector<Value> result;
+  if (values.empty()) return result;
+  result.reserve(which.size());
+  for (const std::uint32_t i : which) result.push_back(values[i]);
+  return result;
 }
 
 // Which of the level's triangles are to be split.
@@ -153,22 +178,22 @@ Level next_level(const Level& level, const std::vector<bool>& split, Leaves& res
   const SplitEdges split_edges = find_split_edges(level.mesh, split);
   Level next;
 
-  const SheetPart<glm::vec3> part = part_of(surface, kept);
-  const std::size_t known = result.surface.mesh.positions.size();
+  SheetPart<glm::vec3> part = part_of(surface, kept);
+  SheetPart<glm::vec2> chart_part;
+  if (!charts.mesh.triangles.empty()) chart_part = part_of(charts, kept);
+  const std::size_t known = result.surface.positions.size();
   std::size_t count = known;
   next.vertices = next_places(surface, part, level.vertices, split_edges.surface, count, result.vertex_splits);
-  next.mesh.surface = refined(part.sheet, Refine::connectivity);
-  add_limits(next.mesh.surface, next.vertices, known, count, result.surface.mesh);
+  const std::size_t known_texture = result.surface.texture.size();
+  std::size_t texture_count = known_texture;
+  next.texture =
+      next_places(charts, chart_part, level.texture, split_edges.charts, texture_count, result.texture_splits);
 
-  if (!charts.mesh.triangles.empty()) {
-    const SheetPart<glm::vec2> chart_part = part_of(charts, kept);
-    const std::size_t known_texture = result.surface.texture.size();
-    std::size_t texture_count = known_texture;
-    next.texture =
-        next_places(charts, chart_part, level.texture, split_edges.charts, texture_count, result.texture_splits);
-    next.mesh.charts = refined(chart_part.sheet, Refine::connectivity);
-    add_limits(next.mesh.charts, next.texture, known_texture, texture_count, result.surface.texture);
-  }
+  next.mesh = refined(LoopLevel{std::move(part.sheet), std::move(chart_part.sheet),
+                                picked(level.mesh.internodes, part.vertices), picked(level.mesh.ages, part.vertices)},
+                      Refine::connectivity);
+  add_vertices(next, known, count, result);
+  add_limits(next.mesh.charts, next.texture, known_texture, texture_count, result.surface.texture);
 
   for (const std::uint32_t t : kept) {
     for (std::uint64_t child = 0; child < 4; ++child) {
@@ -201,7 +226,7 @@ std::uint32_t Splits::find(std::uint32_t a, std::uint32_t b) const {
 Leaves split_triangles(const LoopLevel& coarse, const TrianglesToSplit& to_split) {
   Leaves result;
   Level level = first_level(coarse);
-  add_limits(level.mesh.surface, level.vertices, 0, level.vertices.size(), result.surface.mesh);
+  add_vertices(level, 0, level.vertices.size(), result);
   add_limits(level.mesh.charts, level.texture, 0, level.texture.size(), result.surface.texture);
   for (std::size_t i = 0;; ++i) {
     const std::vector<bool> split =

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "subdivision/limit.h"
+#include "mesh/mesh.h"
 #include "subdivision/loop_level.h"
 
 namespace barkridge {
@@ -38,7 +38,9 @@ struct Splits {
 
 struct Leaves {
   std::vector<Leaf> leaves;
-  LimitSurface surface;  ///< vertices and texture coordinates, without triangles
+  Mesh surface;                         ///< vertices and texture coordinates, without triangles
+  std::vector<InternodeId> internodes;  ///< as of `ControlMesh`
+  std::vector<float> ages;
   Splits vertex_splits, texture_splits;
 };
 

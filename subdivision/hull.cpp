@@ -147,8 +147,10 @@ class Surface {
 
   HullRing ring_at(std::uint32_t node, std::uint32_t branch) const {
     const HullTrim& trim = node == branch ? tip_trim(branch) : base_trim(branch);
-    const Frame& frame = tubes_[branch].frame;
-    return {node == branch ? -frame.growth : frame.growth, frame.side, frame.forward, trim.angle, trim.gap};
+    const Tube& tube = tubes_[branch];
+    const Frame& frame = tube.frame;
+    return {node == branch ? -frame.growth : frame.growth,       frame.side, frame.forward, trim.angle, trim.gap,
+            node == branch ? tube.length - tube.end : tube.start};
   }
 
   void set_joints() {
@@ -258,7 +260,7 @@ class Surface {
       frame = turned(frame, glm::normalize(frame.growth + next));
     }
     const Vec3 center = graph_.positions[graph_.up[branch]] + t * tube.frame.growth;
-    const HullRing flat{frame.growth, frame.side, frame.forward, std::numbers::pi / 2, 0};
+    const HullRing flat{frame.growth, frame.side, frame.forward, std::numbers::pi / 2};
     for (std::uint32_t j = 0; j < count_; ++j) {
       set_vertex(row(tube, i) + j, center + radius * ring_direction(flat, static_cast<int>(j), options_.ring_vertices),
                  branch);
@@ -325,19 +327,10 @@ class Surface {
     });
   }
 
-  // Extra vertices are as far from the centre as the branches around are thick, the nearest counting most.
   void write_extra_vertices(const Joint& joint) {
     for (std::size_t i = 0; i < joint.hull.extra.size(); ++i) {
-      const Vec3& direction = joint.hull.extra[i];
-      double weights = 0, sum = 0;
-      for (const std::uint32_t branch : joint.branches) {
-        const double angle = std::acos(std::clamp(glm::dot(ring_at(joint.node, branch).axis, direction), -1.0, 1.0));
-        const double weight = 1 / (angle * angle);
-        weights += weight;
-        sum += weight * joint_radius(joint.node, branch);
-      }
-      set_vertex(joint.first_extra + static_cast<std::uint32_t>(i),
-                 graph_.positions[joint.node] + sum / weights * direction, thickest(joint));
+      set_vertex(joint.first_extra + static_cast<std::uint32_t>(i), graph_.positions[joint.node] + joint.hull.extra[i],
+                 thickest(joint));
     }
   }
 

@@ -3,7 +3,6 @@
 #include <hwy/highway.h>
 #include <malloc.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <string>
@@ -46,10 +45,6 @@ nlohmann::ordered_json machine_facts() {
 }
 
 int core_count() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
-
-std::size_t machine_memory() {
-  return static_cast<std::size_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-}
 
 std::size_t resident_memory() { return kilobytes_in_status("VmRSS"); }
 std::size_t peak_memory() { return kilobytes_in_status("VmHWM"); }

@@ -10,8 +10,6 @@ namespace barkridge::bench {
 nlohmann::ordered_json machine_facts();
 
 int core_count();
-/// Bytes of the machine.
-std::size_t machine_memory();
 
 /// Bytes of this process that are in memory now, and the most that ever were.
 std::size_t resident_memory();

@@ -15,6 +15,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "base/machine_memory.h"
 #include "bench/support/machine.h"
 
 namespace barkridge::bench {

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <thread>
 
-#include "cli/machine_memory.h"
+#include "base/machine_memory.h"
 #include "tests/cli/run_program.h"
 #include "tests/support/scratch_folder.h"
 
@@ -133,7 +133,7 @@ TEST_CASE("a disk that fills up is a failure that leaves the old file and nothin
 TEST_CASE("pictures and meshes beyond the machine's memory are refused before they are begun") {
   const ScratchFolder folder;
   const std::string scene = folder.write("a.toml", kBall);
-  if (barkridge::cli::machine_memory() < 100'000'000'000) {
+  if (barkridge::machine_memory() < 100'000'000'000) {
     const Finished picture = run_program({"render", scene, "-o", folder.path("a.png"), "--size", "65536x32768"});
     CHECK(picture.status == 1);
     CHECK_THAT(picture.err, Contains("GB of memory") && Contains("--region"));

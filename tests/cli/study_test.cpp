@@ -70,6 +70,16 @@ TEST_CASE("mesh writes what it took, and needs one of its outputs") {
   const auto values = nlohmann::json::parse(read_file(statistics));
   CHECK(values["internodes"] == 3);
   CHECK(values["triangles"] == 4 * values["control_triangles"].get<int>());
+  CHECK(values["crossing_limbs"] == 0);
+  // A branch from the fork's third internode back through its second.
+  const std::string crossing = folder.write("crossing.skel",
+                                            "# barkridge skeleton 1\n"
+                                            "0 -1 0 0 0 0 2 0 0.2 0.2\n"
+                                            "1 0 0 2 0 0 6 0 0.2 0.2\n"
+                                            "2 0 0 2 0 2 2 0 0.2 0.2\n"
+                                            "3 2 2 2 0 -1 6 0 0.2 0.2\n");
+  REQUIRE(run_program({"mesh", crossing, "--surface", "hull", "--statistics", statistics, "-q"}).status == 0);
+  CHECK(nlohmann::json::parse(read_file(statistics))["crossing_limbs"] == 1);
   CHECK_THAT(run_program({"mesh", scene}).err, Contains("expected -o FILE, or --statistics FILE"));
 }
 

@@ -40,7 +40,7 @@ Place place_of(const glm::vec3& p) { return {p.x, p.y, p.z}; }
 
 TEST_CASE("a patch has the limit surface of the whole inside of its box") {
   const ControlMesh whole = hull_mesh(stem());
-  const Mesh surface = limit_surface(whole, 2).mesh;
+  const Mesh surface = limit_surface(whole, 2);
   int inside = 0;
   for (int k = 0; k < 20; ++k) {
     const Vec3 center(
@@ -49,7 +49,7 @@ TEST_CASE("a patch has the limit surface of the whole inside of its box") {
     const Box box = grown({center, center}, 0.05 + 0.3 * random_unit(4, k, 1));
     const ControlMesh patch = patch_for(whole, box);
     CHECK(patch.triangles.size() <= whole.triangles.size());
-    const Mesh part = limit_surface(patch, 2).mesh;
+    const Mesh part = limit_surface(patch, 2);
     std::map<Place, glm::vec3> known;
     for (std::size_t i = 0; i < part.positions.size(); ++i) known[place_of(part.positions[i])] = part.normals[i];
     for (std::size_t i = 0; i < surface.positions.size(); ++i) {

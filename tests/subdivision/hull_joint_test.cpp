@@ -43,7 +43,7 @@ void check_cover(const std::vector<HullBranch>& branches, int count) {
       covered += solid_angle(ring.axis, points.back(), ring_direction(ring, j + 1, count));
     }
   }
-  points.insert(points.end(), joint.extra.begin(), joint.extra.end());
+  for (const Vec3& extra : joint.extra) points.push_back(glm::normalize(extra));
   for (const auto& [a, b, c] : joint.triangles) {
     const double angle = solid_angle(points[a], points[b], points[c]);
     CHECK(angle > 0);
@@ -132,6 +132,33 @@ TEST_CASE("branches that leave to one side get vertices on the other") {
   const std::vector<HullRing> rings = rings_of({{glm::normalize(Vec3(1, 5, 0)), 0.1, 9}, {Vec3(0, 1, 0), 0.1, 9}});
   CHECK(hull_joint(rings, 4).extra.size() >= 2);
   check_cover({{glm::normalize(Vec3(1, 5, 0)), 0.1, 9}, {Vec3(0, 1, 0), 0.1, 9}}, 4);
+}
+
+TEST_CASE("a joint keeps near to its branches where some leave it far out and others near") {
+  // Two branches in nearly one direction leave far out, two others at once; the ring's middle is `distance` away.
+  std::vector<HullBranch> branches = {{Vec3(0, -1, 0), 1, 100}, {Vec3(1, 0, 0), 0.5, 100}, {Vec3(0, 0, 1), 0.5, 100}};
+  for (const double x : {0.12, -0.12}) branches.push_back({glm::normalize(Vec3(x, 1, 0)), 0.5, 100});
+  std::vector<HullRing> rings = rings_of(branches);
+  for (std::size_t i = 0; i < rings.size(); ++i) rings[i].distance = branches[i].radius / std::tan(rings[i].angle);
+  REQUIRE(rings[3].distance > 4 * rings[1].distance);
+  const HullJoint joint = hull_joint(rings, 4);
+  std::vector<Vec3> places;
+  for (const HullRing& ring : rings) {
+    for (int j = 0; j < 4; ++j) places.push_back(ring.distance / std::cos(ring.angle) * ring_direction(ring, j, 4));
+  }
+  places.insert(places.end(), joint.extra.begin(), joint.extra.end());
+  REQUIRE(!joint.extra.empty());
+  for (const auto& triangle : joint.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 middle = 0.5 * (places[triangle[i]] + places[triangle[(i + 1) % 3]]);
+      double nearest = 1e9;  // in radii
+      for (const HullBranch& branch : branches) {
+        const double t = std::max(0.0, glm::dot(middle, branch.direction));
+        nearest = std::min(nearest, glm::length(middle - t * branch.direction) / branch.radius);
+      }
+      CHECK(nearest <= kJointReach * (1 + 1e-9));
+    }
+  }
 }
 
 TEST_CASE("rings beyond double precision are refused") {

@@ -210,19 +210,25 @@ TEST_CASE("vertices know the internode they dress and its age") {
 
 TEST_CASE("texture coordinates have no more than the cylinder's seam along branches") {
   const ControlMesh mesh = hull_mesh(random_skeleton(9, 80));
-  // Inside a branch's own triangles u never runs farther than one vertex on.
+  std::vector<int> uses(mesh.texture.size(), 0);
+  for (const auto& triangle : mesh.texture_triangles) {
+    for (const std::uint32_t coordinate : triangle) ++uses[coordinate];
+  }
+  // Inside a branch's own triangles u never runs farther than one vertex on. Those of joints have coordinates alone.
+  std::size_t own = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    std::set<InternodeId> branches;
+    bool is_joint = false;
     glm::vec2 lo(std::numeric_limits<float>::max()), hi(-std::numeric_limits<float>::max());
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      branches.insert(mesh.internodes[mesh.triangles[t][corner]]);
-      const glm::vec2 coordinate = mesh.texture[mesh.texture_triangles[t][corner]];
-      lo = glm::min(lo, coordinate);
-      hi = glm::max(hi, coordinate);
+    for (const std::uint32_t corner : mesh.texture_triangles[t]) {
+      is_joint = is_joint || uses[corner] == 1;
+      lo = glm::min(lo, mesh.texture[corner]);
+      hi = glm::max(hi, mesh.texture[corner]);
     }
     REQUIRE(std::isfinite(hi.x + hi.y + lo.x + lo.y));
-    REQUIRE(hi.x - lo.x <= (branches.size() == 1 ? 0.2501f : 1.0f));
+    REQUIRE(hi.x - lo.x <= (is_joint ? 1.0f : 0.2501f));
+    own += !is_joint;
   }
+  CHECK(own > mesh.triangles.size() / 4);
 }
 
 TEST_CASE("a control mesh does not depend on the number of threads") {

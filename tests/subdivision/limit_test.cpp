@@ -46,13 +46,13 @@ TEST_CASE("a vertex has the same limit from every level, and refinement goes the
   for (std::uint64_t seed = 200; seed < 230; ++seed) {
     CAPTURE(seed);
     const ControlMesh mesh = random_mesh(seed);
-    const LimitSurface limit = limit_surface(mesh, 0);
-    const LimitSurface later = limit_surface(mesh, 4);
+    const Mesh limit = limit_surface(mesh, 0);
+    const Mesh later = limit_surface(mesh, 4);
     const ControlMesh fine = subdivide(mesh, 5);
     float worst = 0, distance = 0;
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-      worst = std::max(worst, glm::length(limit.mesh.positions[v] - later.mesh.positions[v]));
-      distance = std::max(distance, glm::length(limit.mesh.positions[v] - fine.positions[v]));
+      worst = std::max(worst, glm::length(limit.positions[v] - later.positions[v]));
+      distance = std::max(distance, glm::length(limit.positions[v] - fine.positions[v]));
     }
     for (std::size_t i = 0; i < limit.texture.size(); ++i) {
       worst = std::max(worst, glm::length(limit.texture[i] - later.texture[i]));
@@ -64,9 +64,9 @@ TEST_CASE("a vertex has the same limit from every level, and refinement goes the
 
 TEST_CASE("the limit of an octahedron's vertex is known") {
   // Valence 4, beta = 31/256: the neighbours, which cancel, have 1 / (4 + 3 / (8 beta)) each.
-  const LimitSurface limit = limit_surface(octahedron(), 0);
-  CHECK(limit.mesh.positions[0].x == Approx(1 - 4 / (4 + 96.0 / 31)));
-  for (std::size_t v = 0; v < 6; ++v) CHECK(angle(limit.mesh.normals[v], octahedron().positions[v]) < 1e-6);
+  const Mesh limit = limit_surface(octahedron(), 0);
+  CHECK(limit.positions[0].x == Approx(1 - 4 / (4 + 96.0 / 31)));
+  for (std::size_t v = 0; v < 6; ++v) CHECK(angle(limit.normals[v], octahedron().positions[v]) < 1e-6);
 }
 
 TEST_CASE("a vertex has the same normal from every level") {
@@ -80,11 +80,11 @@ TEST_CASE("a vertex has the same normal from every level") {
                            [](std::uint32_t v) { return v % 8 > 0 && v % 8 < 7 && v / 8 > 0 && v / 8 < 6; });
       });
       mesh.sharp_edges = {{{t[0], t[1]}, kInfinitelySharp}, {{t[1], t[2]}, 1.3F}};
-      const LimitSurface limit = limit_surface(mesh, 0), later = limit_surface(mesh, 3);
+      const Mesh limit = limit_surface(mesh, 0), later = limit_surface(mesh, 3);
       const std::vector<int> counts = triangle_counts(mesh);
       double worst = 0;
       for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        if (counts[v] < 7) worst = std::max(worst, angle(limit.mesh.normals[v], later.mesh.normals[v]));
+        if (counts[v] < 7) worst = std::max(worst, angle(limit.normals[v], later.normals[v]));
       }
       CHECK(worst < 1e-3);
     }
@@ -96,11 +96,11 @@ TEST_CASE("limit normals are those of the triangles of fine levels") {
     for (std::uint64_t seed = 20; seed < 24; ++seed) {
       CAPTURE(closed, seed);
       const ControlMesh mesh = wavy(seed, closed);
-      const LimitSurface limit = limit_surface(mesh, 6);
+      const Mesh limit = limit_surface(mesh, 6);
       const Mesh triangles = to_mesh(subdivide(mesh, 6));
       double worst = 0, total = 0;
       for (std::size_t v = 0; v < triangles.normals.size(); ++v) {
-        const double difference = angle(limit.mesh.normals[v], triangles.normals[v]);
+        const double difference = angle(limit.normals[v], triangles.normals[v]);
         total += difference;
         worst = std::max(worst, difference);
       }
@@ -118,23 +118,23 @@ TEST_CASE("creases have the mean of both sides' normals, corners that of the tri
     p.z = -std::abs(p.y);
   }
   for (std::uint32_t i = 0; i < 4; ++i) mesh.sharp_edges.push_back({{10 + i, 11 + i}, kInfinitelySharp});
-  const LimitSurface limit = limit_surface(mesh, 2);
-  CHECK(angle(limit.mesh.normals[12], {0, 0, 1}) < 1e-5);
-  CHECK(limit.mesh.positions[12] == glm::vec3(2, 0, 0));
-  CHECK(angle(limit.mesh.normals[17], {0, 1, 1}) < 1e-5);
-  CHECK(angle(limit.mesh.normals[7], {0, -1, 1}) < 1e-5);
+  const Mesh limit = limit_surface(mesh, 2);
+  CHECK(angle(limit.normals[12], {0, 0, 1}) < 1e-5);
+  CHECK(limit.positions[12] == glm::vec3(2, 0, 0));
+  CHECK(angle(limit.normals[17], {0, 1, 1}) < 1e-5);
+  CHECK(angle(limit.normals[7], {0, -1, 1}) < 1e-5);
 }
 
 TEST_CASE("very sharp is sharp for ever") {
   ControlMesh mesh = octahedron(), for_ever = mesh;
   mesh.sharp_edges = {{{0, 2}, 1e9F}, {{2, 1}, 1e9F}};
   for_ever.sharp_edges = {{{0, 2}, kInfinitelySharp}, {{2, 1}, kInfinitelySharp}};
-  CHECK(limit_surface(mesh, 2).mesh.positions == limit_surface(for_ever, 2).mesh.positions);
+  CHECK(limit_surface(mesh, 2).positions == limit_surface(for_ever, 2).positions);
 }
 
 TEST_CASE("a mesh of no area has normals all the same") {
   ControlMesh mesh = octahedron();
   for (auto& p : mesh.positions) p = glm::vec3(1, 2, 3);
-  for (const auto& normal : limit_surface(mesh, 0).mesh.normals) CHECK(normal == glm::vec3(0, 1, 0));
+  for (const auto& normal : limit_surface(mesh, 0).normals) CHECK(normal == glm::vec3(0, 1, 0));
   for (const auto& normal : to_mesh(mesh).normals) CHECK(normal == glm::vec3(0, 1, 0));
 }

@@ -1,11 +1,11 @@
-#include "cli/machine_memory.h"
+#include "base/machine_memory.h"
 
 #include <unistd.h>
 
-namespace barkridge::cli {
+namespace barkridge {
 
 std::size_t machine_memory() {
   return static_cast<std::size_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
 }
 
-}  // namespace barkridge::cli
+}  // namespace barkridge

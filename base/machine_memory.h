@@ -2,9 +2,9 @@
 
 #include <cstddef>
 
-namespace barkridge::cli {
+namespace barkridge {
 
 /// Bytes of memory that this machine has in all.
 std::size_t machine_memory();
 
-}  // namespace barkridge::cli
+}  // namespace barkridge
