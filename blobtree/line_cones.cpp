@@ -75,7 +75,7 @@ ConeBounds bounds_at(const ConesMet& met, std::size_t lane, double scale) {
 // Of a cone under several warps, from a box around the piece.
 ConeBounds bounds_in_box(const FieldModel& model, std::uint32_t number, const Ray& ray, const Interval& range) {
   std::vector<std::uint32_t> warps;  // from the innermost on
-  for (std::uint32_t at = model.operators[model.sums[number]].kept_above; at != kNoOperator;
+  for (std::uint32_t at = model.operators[model.sum_of(number)].kept_above; at != kNoOperator;
        at = model.operators[at].kept_above) {
     if (model.operators[at].op == FieldInstruction::Op::kEnterWarp) warps.push_back(model.operators[at].index);
   }
@@ -106,7 +106,7 @@ void meet(const FieldModel& model, std::span<const std::uint32_t> primitives, co
   const auto keep = [&](std::uint32_t number, const ConeBounds& bounds, const Interval& reach) {
     meeting.primitives.push_back(number);
     meeting.cones.push_back(bounds);
-    if (model.takes_away && only_takes_away(model, model.sums[number])) return;
+    if (model.takes_away && only_takes_away(model, model.sum_of(number))) return;
     meeting.highest_sum += bounds.field.value.hi;
     meeting.reach = {std::min(meeting.reach.lo, reach.lo), std::max(meeting.reach.hi, reach.hi)};
   };
@@ -120,7 +120,7 @@ void meet(const FieldModel& model, std::span<const std::uint32_t> primitives, co
     std::size_t count = 0;
     unsigned bent = 0;
     for (; next < primitives.size() && count < ConeColumns::kWidth; ++next, ++count) {
-      const std::uint32_t number = primitives[next], sum = model.sums[number];
+      const std::uint32_t number = primitives[next], sum = model.sum_of(number);
       if (model.other_at(number)) break;
       numbers[count] = number;
       if (!is_warped(model, sum)) {
@@ -151,6 +151,7 @@ void meet(const FieldModel& model, std::span<const std::uint32_t> primitives, co
     const std::uint32_t number = primitives[next++];
     if (model.other_at(number)) {
       meeting.primitives.push_back(number);
+      meeting.cones.emplace_back();
       are_all_cones = false;
     } else if (const ConeBounds bounds = bounds_in_box(model, number, ray, range); bounds.field.value.hi > 0) {
       keep(number, bounds, range);

@@ -17,8 +17,7 @@ struct LineMeeting {
   double highest_sum = 0;
   /// Those that matter on the range, in rising order.
   std::vector<std::uint32_t> primitives;
-  /// Bounds of the cones among them, in their order and through all warps above, and whether they may be evaluated as
-  /// steady.
+  /// Of those that are cones, bounds through all warps above, and whether they may be evaluated as steady.
   std::vector<ConeBounds> cones;
 };
 
