@@ -87,6 +87,8 @@ class Assembler {
   }
 
   bool is_lone_twin(const Entry& entry, const Entry* left, const Entry* right) const {
+    const std::uint32_t sum = model_.sums[entry.place];
+    if ((left && model_.sums[left->place] == sum) || (right && model_.sums[right->place] == sum)) return false;
     const Entry twin{entry.twin, entry.primitive, entry.place};
     const std::uint32_t above = common(twin, entry);
     if (left && depth(common(*left, entry)) > depth(above)) return false;

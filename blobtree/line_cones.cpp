@@ -120,14 +120,14 @@ void meet(const FieldModel& model, std::span<const std::uint32_t> primitives, co
     std::size_t count = 0;
     unsigned bent = 0;
     for (; next < primitives.size() && count < ConeColumns::kWidth; ++next, ++count) {
-      const std::uint32_t number = primitives[next], sum = model.sum_of(number);
+      const std::uint32_t number = primitives[next];
       if (model.other_at(number)) break;
       numbers[count] = number;
-      if (!is_warped(model, sum)) {
+      if (model.warps.empty() || !is_warped(model, model.sum_of(number))) {
         place(model.cones[number], model.kinds[number], straight, model.units, count, columns);
         continue;
       }
-      const Warp* warp = only_warp(model, sum);
+      const Warp* warp = only_warp(model, model.sum_of(number));
       if (!warp) break;
       warped[count] = warp->map(ray.at(range.lo), ray.at(range.hi));
       place(model.cones[number], model.kinds[number], chord_of(warped[count], length), model.units, count, columns);
