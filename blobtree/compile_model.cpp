@@ -331,8 +331,8 @@ class ModelCompiler {
   std::vector<decltype(Node::what)> warps_below(std::uint32_t above, std::uint32_t sum) const {
     std::vector<decltype(Node::what)> warps;
     const std::vector<FieldOperator>& operators = model_->operators;
-    for (std::uint32_t at = operators[sum].kept_above; at != kNoOperator && operators[at].depth > operators[above].depth;
-         at = operators[at].kept_above) {
+    for (std::uint32_t at = operators[sum].kept_above;
+         at != kNoOperator && operators[at].depth > operators[above].depth; at = operators[at].kept_above) {
       if (operators[at].op == Op::kEnterWarp) warps.push_back(tree_.nodes[warp_nodes_[operators[at].index]].what);
     }
     return warps;

@@ -30,8 +30,8 @@ struct FieldOperator {
 
 inline constexpr std::uint32_t kNoPlace = ~std::uint32_t{0};
 
-/// Where a primitive stands among the operands of all sums, in the order of programs. One that stands in two operands of
-/// a union, as an internode does in the sums of two junctions, is there once and has a second place.
+/// Where a primitive stands among the operands of all sums, in the order of programs. One that stands in two operands
+/// of a union, as an internode does in the sums of two junctions, is there once and has a second place.
 struct PrimitivePlaces {
   std::uint32_t first = 0;
   std::uint32_t second = kNoPlace;
