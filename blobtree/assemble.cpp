@@ -1,6 +1,7 @@
 // The program of some of a model's primitives: their auxiliary tree, found with a stack over their common ancestors.
 
 #include <algorithm>
+#include <optional>
 
 #include "blobtree/field_model.h"
 
@@ -12,19 +13,27 @@ using Op = FieldInstruction::Op;
 
 class Assembler {
  public:
-  Assembler(const FieldModel& model, FieldProgram& program) : model_(model), program_(program), open_(stack()) {
+  Assembler(const FieldModel& model, FieldProgram& program)
+      : model_(model), program_(program), open_(memory<Open>()), entries_(memory<Entry>()) {
     program_.clear();
     open_.clear();
+    entries_.clear();
   }
 
   void run(std::span<const std::uint32_t> primitives) {
-    for (std::size_t first = 0; first < primitives.size();) {
-      const std::uint32_t sum = model_.sums[primitives[first]];
+    for (const std::uint32_t primitive : primitives) {
+      const PrimitivePlaces places = model_.places_of(primitive);
+      entries_.push_back({places.first, primitive, places.second});
+      if (places.second != kNoPlace) entries_.push_back({places.second, primitive, places.first});
+    }
+    if (entries_.size() > primitives.size()) drop_lone_twins();
+    for (std::size_t first = 0; first < entries_.size();) {
+      const std::uint32_t sum = model_.sums[entries_[first].place];
       std::size_t last = first + 1;
-      while (last < primitives.size() && model_.sums[primitives[last]] == sum) ++last;
-      if (first > 0) close_below(model_.ancestors.common(primitives[first - 1], primitives[first], model_.operators));
+      while (last < entries_.size() && model_.sums[entries_[last].place] == sum) ++last;
+      if (first > 0) close_below(common(entries_[first - 1], entries_[first]));
       if (open_.empty() || open_.back().node != sum) open_.push_back({sum, 0, program_.code.size()});
-      push_primitives(primitives.subspan(first, last - first));
+      push_primitives(std::span(entries_).subspan(first, last - first));
       first = last;
     }
     while (!open_.empty()) {
@@ -44,12 +53,58 @@ class Assembler {
     std::size_t start;
   };
 
-  static std::vector<Open>& stack() {
-    thread_local std::vector<Open> memory;
+  // A primitive at one of its places.
+  struct Entry {
+    std::uint32_t place;
+    std::uint32_t primitive;
+    std::uint32_t twin;  // the other place
+  };
+
+  template <typename T>
+  static std::vector<T>& memory() {
+    thread_local std::vector<T> memory;
     return memory;
   }
 
   std::uint32_t depth(std::uint32_t node) const { return model_.operators[node].depth; }
+  std::uint32_t common(const Entry& first, const Entry& last) const {
+    return model_.ancestors.common(first.place, last.place, model_.operators);
+  }
+
+  // A primitive by itself in an operand of a union is never more than the operand that it stands in as well, if that
+  // only adds to it. Of equal operands the first one counts, so the twin must come first for all bits to be the same.
+  void drop_lone_twins() {
+    std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.place < b.place; });
+    std::size_t kept = 0;
+    std::optional<Entry> left;  // a neighbour counts even if it has been dropped
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+      const Entry entry = entries_[i];
+      const Entry* right = i + 1 < entries_.size() ? &entries_[i + 1] : nullptr;
+      if (entry.twin >= entry.place || !is_lone_twin(entry, left ? &*left : nullptr, right)) entries_[kept++] = entry;
+      left = entry;
+    }
+    entries_.resize(kept);
+  }
+
+  bool is_lone_twin(const Entry& entry, const Entry* left, const Entry* right) const {
+    const std::uint32_t sum = model_.sums[entry.place];
+    if ((left && model_.sums[left->place] == sum) || (right && model_.sums[right->place] == sum)) return false;
+    const Entry twin{entry.twin, entry.primitive, entry.place};
+    const std::uint32_t above = common(twin, entry);
+    if (left && depth(common(*left, entry)) > depth(above)) return false;
+    if (right && depth(common(entry, *right)) > depth(above)) return false;
+    return only_adds(model_.sums[twin.place], above);
+  }
+
+  // Whether an operator is never less than an operand of one below it.
+  bool only_adds(std::uint32_t below, std::uint32_t above) const {
+    for (std::uint32_t at = below; at != above; at = model_.operators[at].parent) {
+      const FieldOperator& node = model_.operators[at];
+      const bool adds = node.op == Op::kSum && node.operand_count == 1;  // more where some are subtracted
+      if (!adds && node.op != Op::kUnion && node.op != Op::kEnterWarp) return false;
+    }
+    return true;
+  }
 
   // Finishes all open operators below `ancestor`, which is open afterwards.
   void close_below(std::uint32_t ancestor) {
@@ -63,9 +118,9 @@ class Assembler {
     }
   }
 
-  void push_primitives(std::span<const std::uint32_t> primitives) {
+  void push_primitives(std::span<const Entry> entries) {
     const std::size_t start = program_.cones.size();
-    for (const std::uint32_t primitive : primitives) {
+    for (const auto [place, primitive, twin] : entries) {
       if (const FieldModel::Other* other = model_.other_at(primitive)) {
         emit(Op::kOther, 0, static_cast<std::size_t>(other - model_.others.data()));
         ++open_.back().operands;
@@ -130,6 +185,7 @@ class Assembler {
   const FieldModel& model_;
   FieldProgram& program_;
   std::vector<Open>& open_;
+  std::vector<Entry>& entries_;
 };
 
 }  // namespace

@@ -1,12 +1,15 @@
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
 #include <span>
 #include <utility>
 
 #include "base/large_room.h"
+#include "base/random.h"
 #include "blobtree/contact.h"
 #include "blobtree/field_model.h"
 #include "blobtree/morton.h"
@@ -73,6 +76,7 @@ class ModelCompiler {
       task.first_waiting == kNoneWaiting ? visit(task.node, task.parent, task.rank)
                                          : place_primitives(task.first_waiting, task.parent);
     }
+    unite_twins();
     write_primitives();
     finish();
     return model_;
@@ -117,8 +121,7 @@ class ModelCompiler {
     for (const Node& node : tree_.nodes) {
       if (is_primitive(node)) {
         ++primitives;
-        has_others_ =
-            has_others_ || !(std::holds_alternative<Cone>(node.what) || std::holds_alternative<FadedCone>(node.what));
+        has_others_ = has_others_ || !is_cone(node);
         continue;
       }
       if (std::holds_alternative<Sum>(node.what)) continue;
@@ -129,7 +132,7 @@ class ModelCompiler {
     }
     reserve_large(model_->operators, operators);
     reserve_large(model_->sums, primitives);
-    reserve_large(model_->nodes, primitives);
+    reserve_large(nodes_, primitives);
   }
 
   std::uint32_t add_operator(Op op, std::size_t operand_count, std::size_t index, std::uint32_t parent,
@@ -239,6 +242,7 @@ class ModelCompiler {
 
   void visit_warp(Warp warp, NodeId id, std::uint32_t parent, std::uint8_t rank) {
     model_->warps.push_back(std::move(warp));
+    warp_nodes_.push_back(id);
     pending_.push_back(
         {tree_.nodes[id].children[0], add_operator(Op::kEnterWarp, 1, model_->warps.size() - 1, parent, rank), 0});
   }
@@ -255,24 +259,102 @@ class ModelCompiler {
 
   void place_primitives(std::uint32_t first_waiting, std::uint32_t sum) {
     for (std::size_t i = first_waiting; i < waiting_.size(); ++i) {
-      if (has_others_) {
-        std::visit([&](const auto& what) { keep_if_other(what, waiting_[i]); }, tree_.nodes[waiting_[i]].what);
-      }
-      model_->nodes.push_back(waiting_[i]);
+      nodes_.push_back(waiting_[i]);
       model_->sums.push_back(sum);
     }
     waiting_.resize(first_waiting);
   }
 
+  // Equal cones in different operands of a union are one primitive in two places.
+  void unite_twins() {
+    const std::vector<std::uint32_t> twins = find_twins();
+    if (twins.empty()) {
+      model_->nodes = std::move(nodes_);
+      return;
+    }
+    for (std::uint32_t place = 0; place < nodes_.size(); ++place) {
+      const std::uint32_t twin = twins[place];
+      if (twin < place) continue;
+      model_->places.push_back({place, twin});
+      model_->nodes.push_back(twin == kNoPlace ? nodes_[place] : std::min(nodes_[place], nodes_[twin]));
+    }
+  }
+
+  // By place; empty if there are none.
+  std::vector<std::uint32_t> find_twins() const {
+    if (std::none_of(model_->operators.begin(), model_->operators.end(),
+                     [](const FieldOperator& node) { return node.op == Op::kUnion && node.operand_count > 1; })) {
+      return {};
+    }
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;  // and places
+    resize_large(keys, nodes_.size());
+    tbb::parallel_for(std::size_t{0}, keys.size(), [&](std::size_t i) {
+      keys[i] = {key_of(tree_.nodes[nodes_[i]]), static_cast<std::uint32_t>(i)};
+    });
+    tbb::parallel_sort(keys);
+    std::vector<std::uint32_t> twins;
+    for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
+      const auto [key, place] = keys[i];
+      const auto [next_key, next] = keys[i + 1];
+      if (key != next_key || !are_twins(place, next)) continue;
+      if (twins.empty()) twins.assign(nodes_.size(), kNoPlace);
+      twins[place] = next;
+      twins[next] = place;
+      ++i;
+    }
+    return twins;
+  }
+
+  static std::uint64_t key_of(const Node& node) {
+    return std::visit(
+        [](const auto& what) -> std::uint64_t {
+          const auto key = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+          if constexpr (requires { what.base_radius; }) {
+            return hash_keys(key(what.base.x), key(what.base.y), key(what.base.z), key(what.tip.x), key(what.tip.y),
+                             key(what.tip.z), key(what.base_radius), key(what.tip_radius));
+          }
+          return 0;
+        },
+        node.what);
+  }
+
+  bool are_twins(std::uint32_t a, std::uint32_t b) const {
+    const Node& node = tree_.nodes[nodes_[a]];
+    if (!is_cone(node) || node != tree_.nodes[nodes_[b]]) return false;
+    const std::vector<std::uint32_t>& sums = model_->sums;
+    const std::uint32_t above = common_ancestor(sums[a], sums[b]);
+    return model_->operators[above].op == Op::kUnion && !only_takes_away(*model_, sums[a]) &&
+           !only_takes_away(*model_, sums[b]) && warps_below(above, sums[a]) == warps_below(above, sums[b]);
+  }
+
+  // What the warps between two operators are in the tree, from the lowest on.
+  std::vector<decltype(Node::what)> warps_below(std::uint32_t above, std::uint32_t sum) const {
+    std::vector<decltype(Node::what)> warps;
+    const std::vector<FieldOperator>& operators = model_->operators;
+    for (std::uint32_t at = operators[sum].kept_above;
+         at != kNoOperator && operators[at].depth > operators[above].depth; at = operators[at].kept_above) {
+      if (operators[at].op == Op::kEnterWarp) warps.push_back(tree_.nodes[warp_nodes_[operators[at].index]].what);
+    }
+    return warps;
+  }
+
+  static bool is_cone(const Node& node) {
+    return std::holds_alternative<Cone>(node.what) || std::holds_alternative<FadedCone>(node.what);
+  }
+
   template <typename Shape>
-  void keep_if_other(const Shape& shape, NodeId id) {
+  void keep_if_other(const Shape& shape, std::size_t number, NodeId id) {
     if constexpr (std::is_constructible_v<std::variant<Disc, Ring, Polygon>, Shape>) {
-      model_->others.push_back({static_cast<std::uint32_t>(model_->nodes.size()), shape, supports_[id]});
+      model_->others.push_back({static_cast<std::uint32_t>(number), shape, supports_[id]});
     }
   }
 
   // All have their places: what stands there depends on nothing else.
   void write_primitives() {
+    for (std::size_t i = 0; has_others_ && i < model_->nodes.size(); ++i) {
+      const NodeId id = model_->nodes[i];
+      std::visit([&](const auto& what) { keep_if_other(what, i, id); }, tree_.nodes[id].what);
+    }
     resize_large(model_->cones, model_->nodes.size());
     resize_large(model_->kinds, model_->nodes.size());
     resize_large(boxes_, model_->nodes.size());
@@ -285,7 +367,7 @@ class ModelCompiler {
         model_->cones[i] = record_of(*faded, model_->units.scale);
         model_->kinds[i] = kind_of_faded(model_->cones[i]);
       }
-      boxes_[i] = box_in_world(*model_, model_->sums[i], [&](const Warp::Framed* frame) {
+      boxes_[i] = box_in_world(*model_, model_->sum_of(static_cast<std::uint32_t>(i)), [&](const Warp::Framed* frame) {
         return frame ? support_in_frame(node, supports_[id], *frame) : supports_[id];
       });
     });
@@ -310,6 +392,7 @@ class ModelCompiler {
     model.ancestors.build(std::move(ancestors), model.operators);
     model.sums.shrink_to_fit();
     model.nodes.shrink_to_fit();
+    model.places.shrink_to_fit();
     model.operators.shrink_to_fit();
     model.warps.shrink_to_fit();
     model.takes_away = std::any_of(model.operators.begin(), model.operators.end(), [](const FieldOperator& node) {
@@ -329,6 +412,8 @@ class ModelCompiler {
   std::vector<Task> pending_;
   std::vector<NodeId> waiting_;          // primitives of the sums whose other operands find their places
   std::vector<NodeId> nested_, others_;  // room for `visit_sum`
+  std::vector<NodeId> nodes_;            // by place
+  std::vector<NodeId> warp_nodes_;       // by warp
   std::vector<Box> boxes_;               // by primitive
   std::shared_ptr<FieldModel> model_;
 };

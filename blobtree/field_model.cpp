@@ -59,10 +59,10 @@ const FieldModel::Other* FieldModel::other_at(std::uint32_t primitive) const {
 
 std::size_t FieldModel::memory() const {
   return sizeof(FieldModel) + cones.capacity() * sizeof(ConeRecord) + kinds.capacity() * sizeof(ConeKind) +
-         sums.capacity() * sizeof(std::uint32_t) + nodes.capacity() * sizeof(NodeId) + supports.memory() +
-         ancestors.memory() + operators.capacity() * sizeof(FieldOperator) + others.capacity() * sizeof(Other) +
-         exponents.capacity() * sizeof(double) + contacts.capacity() * sizeof(ContactShape) +
-         warps.capacity() * sizeof(Warp);
+         nodes.capacity() * sizeof(NodeId) + places.capacity() * sizeof(PrimitivePlaces) + supports.memory() +
+         sums.capacity() * sizeof(std::uint32_t) + ancestors.memory() + operators.capacity() * sizeof(FieldOperator) +
+         others.capacity() * sizeof(Other) + exponents.capacity() * sizeof(double) +
+         contacts.capacity() * sizeof(ContactShape) + warps.capacity() * sizeof(Warp);
 }
 
 bool is_warped(const FieldModel& model, std::uint32_t sum) {

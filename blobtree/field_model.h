@@ -14,7 +14,7 @@ namespace barkridge {
 
 inline constexpr std::uint32_t kNoOperator = ~std::uint32_t{0};
 
-/// A node above the primitives. Nested sums are one; every primitive stands in a sum.
+/// A node above the primitives. Nested sums are one; every primitive stands in a sum, or in two.
 struct FieldOperator {
   FieldInstruction::Op op;  ///< kEnterWarp for a warp
   bool is_kept = false;     ///< whether it changes even a lone operand
@@ -28,12 +28,21 @@ struct FieldOperator {
   std::uint32_t kept_above = kNoOperator;
 };
 
-/// Finds the lowest common ancestor of primitives by a range minimum over those of neighbours.
+inline constexpr std::uint32_t kNoPlace = ~std::uint32_t{0};
+
+/// Where a primitive stands among the operands of all sums, in the order of programs. One that stands in two operands
+/// of a union, as an internode does in the sums of two junctions, is there once and has a second place.
+struct PrimitivePlaces {
+  std::uint32_t first = 0;
+  std::uint32_t second = kNoPlace;
+};
+
+/// Finds the lowest common ancestor of places by a range minimum over those of neighbours.
 class AncestorTable {
  public:
   /// Of neighbours `i` and `i + 1`: the operator and its depth.
   void build(std::vector<std::uint32_t> ancestors, const std::vector<FieldOperator>& operators);
-  /// The deepest operator above both primitives, `first < last`.
+  /// The deepest operator above both places, `first < last`.
   std::uint32_t common(std::uint32_t first, std::uint32_t last, const std::vector<FieldOperator>& operators) const;
   std::size_t memory() const;
 
@@ -53,9 +62,12 @@ struct FieldModel {
   // By primitive. Of an other primitive than a cone, the record means nothing.
   std::vector<ConeRecord> cones;
   std::vector<ConeKind> kinds;
-  std::vector<std::uint32_t> sums;  ///< the operator that each stands in
-  std::vector<NodeId> nodes;        ///< what each is in the tree
+  std::vector<NodeId> nodes;            ///< what each is in the tree; of equal nodes the first
+  std::vector<PrimitivePlaces> places;  ///< by rising first places; empty if no primitive has two, and so its number
   BoxHierarchy supports;
+
+  // By place.
+  std::vector<std::uint32_t> sums;  ///< the operator that each stands in
   AncestorTable ancestors;
 
   std::vector<FieldOperator> operators;
@@ -75,6 +87,11 @@ struct FieldModel {
   bool takes_away = false;
 
   const Other* other_at(std::uint32_t primitive) const;
+  PrimitivePlaces places_of(std::uint32_t primitive) const {
+    return places.empty() ? PrimitivePlaces{primitive} : places[primitive];
+  }
+  /// The sum of a primitive's first place. Above a second one are the same warps, and nothing that takes away.
+  std::uint32_t sum_of(std::uint32_t primitive) const { return sums[places_of(primitive).first]; }
   std::size_t memory() const;
 };
 
@@ -82,8 +99,8 @@ struct FieldModel {
 /// internodes needs a stack of about log N, however long its axes are. Cost: N log N.
 std::shared_ptr<const FieldModel> compile_model(const BlobTree& tree);
 
-/// Writes the program of some primitives, given in rising order: the model without all others. Cost: in proportion to
-/// the program.
+/// Writes the program of some primitives, given in rising order: the model without all others, and without sums that
+/// cannot be the largest as they are but one operand of another. Cost: in proportion to the program.
 void assemble(const FieldModel& model, std::span<const std::uint32_t> primitives, FieldProgram& program);
 
 /// Whether any operator above a sum moves its primitives.

@@ -130,7 +130,7 @@ class Bounder {
     const std::size_t first = cones_.size();
     for (std::size_t k = instruction.index; k < instruction.index + instruction.count; ++k) {
       const ConeReference& reference = program.cones[k];
-      const ConeBounds bounds = bounds_of_cone(k, reference);
+      const ConeBounds bounds = bounds_of_cone(reference);
       if (is_zero(bounds.field)) continue;
       add(sum, bounds.field);
       cones_.emplace_back(reference.cone, bounds.steady ? ConeKind::kSteady : static_cast<ConeKind>(reference.kind));
@@ -139,12 +139,22 @@ class Bounder {
     push({Op::kCones, static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(first)}, sum, count > 0);
   }
 
-  ConeBounds bounds_of_cone(std::size_t number, const ConeReference& reference) const {
-    if (meeting_) return meeting_->cones[number];
+  ConeBounds bounds_of_cone(const ConeReference& reference) {
+    if (meeting_) return met(reference.cone);
     ConeBounds bounds =
         bounds_of(model_.cones[reference.cone], static_cast<ConeKind>(reference.kind), model_.units, box_);
     bounds.field = through_warps(bounds.field);
     return bounds;
+  }
+
+  // Mostly programs come to them in their order.
+  const ConeBounds& met(std::uint32_t cone) {
+    const std::vector<std::uint32_t>& primitives = meeting_->primitives;
+    if (next_met_ == primitives.size() || primitives[next_met_] != cone) {
+      const auto at = std::lower_bound(primitives.begin(), primitives.end(), cone);
+      next_met_ = static_cast<std::size_t>(at - primitives.begin());
+    }
+    return meeting_->cones[next_met_++];
   }
 
   void push(const FieldInstruction& instruction, const FieldBounds& bounds, bool live) {
@@ -307,6 +317,7 @@ class Bounder {
   std::size_t start_ = 0;
 
   const LineMeeting* meeting_ = nullptr;
+  std::size_t next_met_ = 0;
   bool maps_boxes_ = true;
 };
 

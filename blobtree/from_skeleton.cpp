@@ -10,15 +10,13 @@
 #include "base/error.h"
 #include "base/large_room.h"
 #include "blobtree/axes.h"
+#include "blobtree/blending_groups.h"
 #include "blobtree/missing_organs.h"
 #include "blobtree/plant.h"
 
 namespace barkridge {
 
 namespace {
-
-// What meets at a junction is taken to have died out on an internode so many of the thickest radii away from it.
-constexpr double kJunctionReach = 2;
 
 // Nodes that are to be summed: a subtree before anything but a sum has needed it as one node. Each is linked to the
 // next, so that rows of any length become one at no cost.
@@ -31,7 +29,10 @@ class TreeBuilder {
  public:
   explicit TreeBuilder(const Plant& plant) : plant_(plant) {
     resize_large(subtrees_, plant_.size());
-    carvings_ = add_carvings(plant_, tree_);
+    Carvings carvings = add_carvings(plant_, tree_);
+    carvings_ = std::move(carvings.nodes);
+    is_split_.resize(plant_.size());
+    if (plant_.options().blending == BlendingKind::kConfined) is_split_ = ends_of_blending(plant_, carvings.touched);
     // A carving may need a sum, and is followed by no more than one operator.
     const std::size_t most = most_nodes() + tree_.nodes.size() + 2 * carvings_.size();
     reserve_large(tree_.nodes, most);
@@ -40,12 +41,10 @@ class TreeBuilder {
   }
 
   PlantTree run() {
-    // Children before parents: the summands of a subtree move up the axis and become a node where branches touch. A
-    // long internode ends them where blending is confined: what meets at its tip is a group of its own, unless
-    // something is carved out of the internode, of which there is but one copy then.
+    // Children before parents: the summands of a subtree move up the axis and become a node where branches touch, or
+    // where blending ends: what meets at the tip of an internode is a group of its own then.
     auto carving = carvings_.begin();
     std::vector<NodeId> apart;
-    std::vector<bool> is_split(plant_.size());
     for (std::size_t i = plant_.size(); i-- > 0;) {
       primitives_[i] = kNoNode;
       if (plant_.scar_of(i)) continue;
@@ -60,10 +59,8 @@ class TreeBuilder {
       }
       const auto first = carving;
       while (carving != carvings_.end() && carving->internode == static_cast<InternodeId>(i)) ++carving;
-      if (first != carving) {
-        carve(subtree, std::span(first, carving));
-      } else if (carries_group(i)) {
-        is_split[i] = true;
+      if (first != carving) carve(subtree, std::span(first, carving));
+      if (is_split_[i]) {
         apart.push_back(as_node(subtree));
         subtree = single(plant_.add_primitive(tree_, i));
       }
@@ -77,7 +74,7 @@ class TreeBuilder {
     }
     for (const auto& [base, roots] : plants) {
       // A root by itself adds nothing to the group that it carries.
-      if (roots.size() > 1 || !is_split[static_cast<std::size_t>(roots.front())]) {
+      if (roots.size() > 1 || !is_split_[static_cast<std::size_t>(roots.front())]) {
         apart.push_back(as_node(join(kNoInternode, roots)));
       }
     }
@@ -89,14 +86,14 @@ class TreeBuilder {
   }
 
  private:
-  // A primitive and perhaps a bend for every internode, and again with a sum where it carries a group; a union and a
+  // A primitive and perhaps a bend for every internode, and again with a sum where blending ends; a union and a
   // sum where it is united with what it carries; a contact where branches touch, and a sum for each of several
   // internodes; what joins the roots.
   std::size_t most_nodes() const {
     const std::size_t for_each = plant_.has_arcs() ? 2 : 1;
     std::size_t most = plant_.size() * for_each;
     for (std::size_t i = 0; i < plant_.size(); ++i) {
-      most += (carries_group(i) ? for_each + 1 : 0) + (plant_.is_united(i) ? 2 : 0);
+      most += (is_split_[i] ? for_each + 1 : 0) + (plant_.is_united(i) ? 2 : 0);
     }
     most += 3 * plant_.children_of(plant_.size()).size() + 1;
     if (plant_.options().junction == JunctionKind::kSmooth) return most;
@@ -108,21 +105,6 @@ class TreeBuilder {
               }));
     }
     return most;
-  }
-
-  // Whether blending ends at an internode: it has children, and what meets at its base has died out where what meets at
-  // its tip begins.
-  bool carries_group(std::size_t i) const {
-    if (plant_.options().blending != BlendingKind::kConfined || plant_.children_of(i).empty()) return false;
-    const Internode& a = plant_.internode(i);
-    const double at_tip = std::max(a.tip_radius, plant_.neighbourhood_of(i).thickest_child);
-    double at_base = a.base_radius;
-    if (a.parent != kNoInternode) {
-      const auto parent = static_cast<std::size_t>(a.parent);
-      at_base =
-          std::max({at_base, plant_.internode(parent).tip_radius, plant_.neighbourhood_of(parent).thickest_child});
-    }
-    return glm::distance(a.base, a.tip) > kJunctionReach * (at_base + at_tip);
   }
 
   static Summands single(NodeId node) { return {node, node, 1}; }
@@ -197,6 +179,7 @@ class TreeBuilder {
   BlobTree tree_;
   std::vector<NodeId> primitives_;  // by internode
   std::vector<Carving> carvings_;
+  std::vector<bool> is_split_;      // by internode: whether blending ends there
   std::vector<NodeId> next_;        // by node: what it is followed by among summands
   std::vector<Summands> subtrees_;  // by internode; none of what is shed
 };

@@ -75,8 +75,9 @@ struct TreeOptions {
 /// contact or sum by the junction's kind [GMW04, eqs. 5, 6]. Roots that start at the same point are joined like
 /// children of the ground; plants rooted apart are united and do not blend. Cut ends get their faces and scars their
 /// hollows. [docs/field.md, "Missing organs"] With confined blending, F is the largest of such fields over groups of
-/// internodes: those that meet at a junction, or at several with only short internodes between them. A long internode
-/// stands in both of its ends' groups. Cost: linear in internodes, whatever the depth, times the number of rules.
+/// internodes: those that meet at a junction, or at several that influence the same part of an internode between them.
+/// Any other internode stands in both of its ends' groups. [docs/field.md, "Confined blending"] Cost: linear in
+/// internodes, whatever the depth, times the number of rules; for the groups as `ends_of_blending`.
 /// Throws `InputError` for numbers outside their ranges and for cut ends and scars of internodes that have children.
 BlobTree tree_from_skeleton(const Skeleton& skeleton, const TreeOptions& options = {});
 

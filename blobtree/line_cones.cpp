@@ -70,7 +70,7 @@ void place(const Piece& piece, const Vec3& origin, const ModelUnits& units, std:
 // Of a cone under several warps, from a box around the pieces.
 FieldBounds bounds_in_box(const FieldModel& model, std::uint32_t number, Box box) {
   std::vector<std::uint32_t> warps;  // from the innermost on
-  for (std::uint32_t at = model.operators[model.sums[number]].kept_above; at != kNoOperator;
+  for (std::uint32_t at = model.operators[model.sum_of(number)].kept_above; at != kNoOperator;
        at = model.operators[at].kept_above) {
     if (model.operators[at].op == FieldInstruction::Op::kEnterWarp) warps.push_back(model.operators[at].index);
   }
@@ -94,9 +94,10 @@ struct Surroundings {
   const Warp* warp = nullptr;  // if it is one
 };
 
-Surroundings surroundings_of(const FieldModel& model, std::uint32_t sum) {
+Surroundings surroundings_of(const FieldModel& model, std::uint32_t primitive) {
   Surroundings found;
   if (model.warps.empty()) return found;
+  const std::uint32_t sum = model.sum_of(primitive);
   for (std::uint32_t at = model.operators[sum].kept_above; at != kNoOperator; at = model.operators[at].kept_above) {
     if (model.operators[at].op != FieldInstruction::Op::kEnterWarp) continue;
     if (found.warp) return {Above::kWarps, nullptr};
@@ -195,7 +196,7 @@ class Meeter {
     WarpedLines warped;
     for (std::size_t i = 0; i < primitives_.size(); ++i) {
       const std::uint32_t number = primitives_[i];
-      const Surroundings around = surroundings_of(model_, model_.sums[number]);
+      const Surroundings around = surroundings_of(model_, number);
       if (!is_met_by_kernels(i, around)) continue;
       // Most of what is bent is far from the rays, and boxes tell that sooner than a bend.
       if (around.warp && !model_.supports.box(number).overlaps(all_parts)) continue;
@@ -312,7 +313,7 @@ class Meeter {
     for (std::size_t i = 0; i < primitives_.size(); ++i) {
       const Met& met = met_[i];
       if (met.met == 0) continue;
-      if (model_.takes_away && only_takes_away(model_, model_.sums[primitives_[i]])) continue;
+      if (model_.takes_away && only_takes_away(model_, model_.sum_of(primitives_[i]))) continue;
       for_each_lane(met.met, [&](std::size_t lane) {
         if (met.what == Met::What::kCone) {
           highest[lane] += static_cast<double>(met.highest[lane]);
@@ -345,9 +346,9 @@ class Meeter {
       const RayLanes rays = met_[i].met & meeting.rays;
       if (rays == 0) continue;
       meeting.primitives.push_back(primitives_[i]);
-      if (met_[i].what == Met::What::kOther) continue;
-      meeting.cones.push_back(met_[i].what == Met::What::kConeInBox ? ConeBounds{met_[i].in_box, false}
-                                                                    : bounds_of_cone(met_[i], rays, meeting.rays));
+      meeting.cones.push_back(met_[i].what == Met::What::kOther       ? ConeBounds{}
+                              : met_[i].what == Met::What::kConeInBox ? ConeBounds{met_[i].in_box, false}
+                                                                      : bounds_of_cone(met_[i], rays, meeting.rays));
     }
   }
 

@@ -18,8 +18,8 @@ struct LineMeeting {
   RayRanges reach;
   /// The primitives that matter on any of the ranges, in rising order.
   std::vector<std::uint32_t> primitives;
-  /// Bounds of the cones among them, in their order and through all warps above, on all the ranges, and whether they
-  /// may be evaluated as steady there.
+  /// Of those that are cones, bounds through all warps above on all the ranges, and whether they may be evaluated as
+  /// steady there.
   std::vector<ConeBounds> cones;
 };
 

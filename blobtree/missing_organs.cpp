@@ -68,10 +68,10 @@ class Carver {
  public:
   Carver(const Plant& plant, BlobTree& tree) : plant_(plant), tree_(tree), neighbours_(plant) {}
 
-  std::vector<Carving> run() {
+  Carvings run() {
     for (const Scar& scar : plant_.skeleton().scars) carve(scar);
     for (const CutEnd& end : plant_.skeleton().cut_ends) carve(end);
-    std::stable_sort(carvings_.begin(), carvings_.end(), [](const Carving& a, const Carving& b) {
+    std::stable_sort(carvings_.nodes.begin(), carvings_.nodes.end(), [](const Carving& a, const Carving& b) {
       return a.internode != b.internode ? a.internode > b.internode : a.kind < b.kind;
     });
     return std::move(carvings_);
@@ -85,11 +85,26 @@ class Carver {
     Ids near = neighbours_.near(grown(Box{disc.center, disc.center}, disc.disc_radius + disc.radius));
     std::erase(near, static_cast<std::uint32_t>(end.internode));
     const InternodeId level = level_of(end, near);
+    touch(static_cast<std::uint32_t>(end.internode), level);
+    for (const std::uint32_t other : near) touch(other, level);
     std::vector<NodeId> parts{tree_.add(disc)};
     if (const auto rest = neighbours_.add_field_of(near, tree_)) parts.push_back(*rest);
     for (const Cone& cone : splinters(plant_, end)) parts.push_back(tree_.add(cone));
     const NodeId node = parts.size() > 1 ? tree_.add(Difference{}, std::move(parts)) : parts[0];
-    carvings_.push_back({level, Carving::Kind::kSubtracted, node});
+    carvings_.nodes.push_back({level, Carving::Kind::kSubtracted, node});
+  }
+
+  // An internode that is near what is carved at some level, and those on its way there.
+  void touch(std::uint32_t near, InternodeId level) {
+    carvings_.touched.push_back(near);
+    std::vector<std::uint32_t> way;
+    InternodeId at = static_cast<InternodeId>(near);
+    for (; at > level; at = plant_.internode(static_cast<std::size_t>(at)).parent) {
+      way.push_back(static_cast<std::uint32_t>(at));
+    }
+    if (at != level) return;
+    way.push_back(static_cast<std::uint32_t>(level));
+    carvings_.touched.insert(carvings_.touched.end(), way.begin(), way.end());
   }
 
   // The lowest internode whose subtree has all of the near ones that are not too far down the tree to be joined with
@@ -126,7 +141,9 @@ class Carver {
     const double missing = std::clamp(kIsoValue - value_at(*bark, place->at(top)), 0.0, kIsoValue);
     const Vec3 center = place->at(top - 2 * radius * distance_of(missing));
     const Cone stub{center, center, radius, radius};
-    carvings_.push_back({a.parent, Carving::Kind::kAdded, tree_.add(stub)});
+    carvings_.nodes.push_back({a.parent, Carving::Kind::kAdded, tree_.add(stub)});
+    touch(static_cast<std::uint32_t>(a.parent), a.parent);
+    for (const std::uint32_t other : near) touch(other, a.parent);
 
     const auto filled = [&](const Vec3& p) { return value_at(*bark, p) + sample(stub, p).value; };
     const double width = std::min(scar.shape.width * radius, carrier_radius(a));
@@ -134,7 +151,7 @@ class Carver {
     for (int shallower = 0; shallower < kMostAttempts && depth > 0; ++shallower, depth *= 0.7) {
       const std::vector<Disc> hollow = hollow_of(*place, top, depth, width, carrier_radius(a), filled);
       if (!keeps_axes(near, hollow, filled)) continue;
-      for (const Disc& disc : hollow) carvings_.push_back({a.parent, Carving::Kind::kNegative, tree_.add(disc)});
+      for (const Disc& disc : hollow) carvings_.nodes.push_back({a.parent, Carving::Kind::kNegative, tree_.add(disc)});
       return;
     }
   }
@@ -213,12 +230,12 @@ class Carver {
   const Plant& plant_;
   BlobTree& tree_;
   Neighbours neighbours_;
-  std::vector<Carving> carvings_;
+  Carvings carvings_;
 };
 
 }  // namespace
 
-std::vector<Carving> add_carvings(const Plant& plant, BlobTree& tree) {
+Carvings add_carvings(const Plant& plant, BlobTree& tree) {
   if (plant.skeleton().cut_ends.empty() && plant.skeleton().scars.empty()) return {};
   return Carver(plant, tree).run();
 }

@@ -19,8 +19,14 @@ struct Carving {
   NodeId node;
 };
 
-/// Adds the nodes of all cut ends and scars to a tree and says where they belong, by falling internodes and, for each,
-/// rising kinds. Cost: linear in internodes if there are any, and in what is near each cut and scar.
-std::vector<Carving> add_carvings(const Plant& plant, BlobTree& tree);
+struct Carvings {
+  std::vector<Carving> nodes;  ///< by falling internodes and, for each, rising kinds
+  /// All internodes whose fields reach what is carved, and what is between them and where that is done.
+  std::vector<std::uint32_t> touched;
+};
+
+/// Adds the nodes of all cut ends and scars to a tree and says where they belong. Cost: linear in internodes if there
+/// are any, and in what is near each cut and scar.
+Carvings add_carvings(const Plant& plant, BlobTree& tree);
 
 }  // namespace barkridge

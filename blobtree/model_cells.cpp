@@ -111,11 +111,11 @@ class Planner {
   Box box_of_cells(std::uint32_t primitive) const {
     const Cylinder& support = supports_[primitive];
     const Box box = box_around(support);
-    return is_warped(model_, model_.sums[primitive]) ? grown(box, support.radius) : box;
+    return is_warped(model_, model_.sum_of(primitive)) ? grown(box, support.radius) : box;
   }
 
   void plan_primitive(std::uint32_t primitive, Plan& plan) {
-    const std::uint32_t sum = model_.sums[primitive];
+    const std::uint32_t sum = model_.sum_of(primitive);
     if (only_takes_away(model_, sum)) return;
     const Cylinder& support = supports_[primitive];
     boxes_.find_overlapping(box_of_cells(primitive), overlaps_);

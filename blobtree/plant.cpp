@@ -134,20 +134,24 @@ Neighbourhood Plant::neighbourhood_of(std::size_t i) const {
   return near;
 }
 
-NodeId Plant::add_primitive(BlobTree& tree, std::size_t i) const {
+std::variant<Cone, FadedCone> Plant::primitive(std::size_t i) const {
   const Internode& a = internode(i);
   const Neighbourhood near = neighbourhood_of(i);
-  const auto add = [&](auto primitive) {
+  const auto with_cut = [&](auto primitive) {
     if (const CutEnd* end = cut_end_of(i)) {
       const Vec3 axis = (a.tip - a.base) / glm::distance(a.base, a.tip);
       const double past = length_past_cut(a, end_tangent(a, arc(i)), *end);
       primitive.tip += past * axis;
       primitive.tip_radius += past * taper_of(a);
     }
-    return add_bent(tree, primitive, a, arc(i));
+    return primitive;
   };
-  return options_.joint == JointKind::kPaper ? add(paper_cone(a, near, options_.junction))
-                                             : add(faded_cone(a, near, plans_[i]));
+  if (options_.joint == JointKind::kPaper) return with_cut(paper_cone(a, near, options_.junction));
+  return with_cut(faded_cone(a, near, plans_[i]));
+}
+
+NodeId Plant::add_primitive(BlobTree& tree, std::size_t i) const {
+  return std::visit([&](const auto& shape) { return add_bent(tree, shape, internode(i), arc(i)); }, primitive(i));
 }
 
 double length_past_cut(const Internode& internode, const Vec3& axis, const CutEnd& end) {

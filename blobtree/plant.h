@@ -2,6 +2,7 @@
 // A skeleton on its way to a BlobTree: what every internode's primitive must know of its neighbours.
 
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "blobtree/axes.h"
@@ -41,8 +42,10 @@ class Plant {
   const CutEnd* cut_end_of(std::size_t i) const;
   const Scar* scar_of(std::size_t i) const;
 
-  /// The internode's primitive, perhaps under a bend. That of a cut end goes on straight past the cut, by
-  /// `length_past_cut`, for the cut to take away; what is shed has none. Adds at most two nodes.
+  /// The internode's primitive before it is bent. That of a cut end goes on straight past the cut, by
+  /// `length_past_cut`, for the cut to take away; what is shed has none.
+  std::variant<Cone, FadedCone> primitive(std::size_t i) const;
+  /// The same as a node, perhaps under a bend. Adds at most two nodes.
   NodeId add_primitive(BlobTree& tree, std::size_t i) const;
 
  private:

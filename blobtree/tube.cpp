@@ -80,7 +80,7 @@ Cylinder support_cylinder(const FieldModel& model, std::uint32_t primitive) {
   Tube tube = tube_of(cone, model.kinds[primitive], model.units.scale);
   tube.has_levels = false;
   const std::optional<Cylinder> cylinder =
-      cylinder_of(model, model.sums[primitive], tube, 1, tube.along.lo, tube.along.hi);
+      cylinder_of(model, model.sum_of(primitive), tube, 1, tube.along.lo, tube.along.hi);
   return cylinder ? *cylinder : Cylinder{cone.base, {1, 0, 0}, 0, 0};
 }
 

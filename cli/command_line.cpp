@@ -150,9 +150,12 @@ void add_verbs(CLI::App& app, Written& written) {
   add(grow, "--seed", written.seed, "N",
       "Seed of the stochastic choice (lsystem.seed); by default what the L-system says");
 
-  add_verb(app, written, "skeleton", "Prints the skeleton as a table.",
-           "First line `# barkridge skeleton 1`, then an internode a line: id parent x0 y0 z0 x1 y1 z1 r0 r1, parents "
-           "before children, parent -1 at a root. A table in a .skel file is a scene again.");
+  add_verb(
+      app, written, "skeleton", "Prints the skeleton as a table.",
+      "First line `# barkridge skeleton 1`, then an internode a line: id parent x0 y0 z0 x1 y1 z1 r0 r1, parents "
+      "before children, parent -1 at a root. Where an L-system has marked ridges, cuts and scars it is "
+      "`# barkridge skeleton 2`, and lines `ridge id width swelling`, `cut id nx ny nz splinters` and `scar id width "
+      "depth stub` follow. A table in a .skel file is a scene again.");
 
   CLI::App& field =
       add_verb(app, written, "field", "Prints the field and its gradient at points, by the reference evaluator.",

@@ -121,7 +121,9 @@ Skeleton without_zero_lengths(Skeleton skeleton);
 
 /// The skeleton table: a first line `# barkridge skeleton 1`, then a line an internode,
 /// `id parent x0 y0 z0 x1 y1 z1 r0 r1`, parents before children, parent -1 at a root, 9 significant digits.
-/// Organs, cut ends and scars are not written. Reading accepts ids in any order as long as parents precede children,
+/// Where ridges, cut ends or scars are to be written the first line is `# barkridge skeleton 2`, and lines
+/// `ridge id width swelling`, `cut id nx ny nz splinters` and `scar id width depth stub` follow. Organs, shed branches
+/// and births are not written. Reading accepts ids in any order as long as parents precede children,
 /// blank lines and further `#` comments; it throws `InputError` for a wrong header, a wrong number of fields, numbers
 /// that are not finite, radii not above zero, repeated ids and unknown parents. Orders are derived: the thickest child
 /// continues its parent's order.
