@@ -19,6 +19,8 @@ namespace {
 
 using Op = FieldInstruction::Op;
 
+constexpr double kRounding = 1e-6;
+
 bool is_primitive(const Node& node) { return node.children.empty(); }
 
 // How deep a stack a node's evaluation needs when its children go by falling need. [Sethi and Ullman 1970]
@@ -97,9 +99,10 @@ class ModelCompiler {
     int exponent = 0;
     if (largest > 0 && std::isfinite(largest)) std::frexp(largest, &exponent);
     model_->units.scale = std::ldexp(1.0, -exponent);
-    // Coarse enough for most batches to have one origin, fine enough for the thinnest twig.
-    constexpr double kThinnestRadii = 128;
-    const double wanted = kThinnestRadii * thinnest_radius(tree_) * model_->units.scale;
+    // Coarse enough for most batches to have one origin, fine enough for the thinnest twig and the finest noise.
+    constexpr double kThinnestRadii = 128, kFinestWaves = 16;
+    const double wanted =
+        std::min(kThinnestRadii * thinnest_radius(tree_), kFinestWaves * finest_wavelength(tree_)) * model_->units.scale;
     model_->units.origin_spacing = std::exp2(std::round(std::log2(std::clamp(wanted, 0x1p-14, 0x1p-4))));
   }
 
@@ -135,8 +138,8 @@ class ModelCompiler {
   std::uint32_t add_operator(Op op, std::size_t operand_count, std::size_t index, std::uint32_t parent,
                              std::uint8_t rank) {
     FieldOperator node{op};
-    node.is_kept = op == Op::kNegate || op == Op::kRicci || op == Op::kIntersection || op == Op::kDifference ||
-                   op == Op::kEnterWarp || (has_negatives_ && (op == Op::kUnion || op == Op::kContact));
+    node.is_kept = op == Op::kNegate || op == Op::kDisplace || op == Op::kRicci || op == Op::kIntersection ||
+                   op == Op::kDifference || op == Op::kEnterWarp || (has_negatives_ && (op == Op::kUnion || op == Op::kContact));
     node.rank = rank;
     node.index = static_cast<std::uint32_t>(index);
     node.operand_count = static_cast<std::uint32_t>(operand_count);
@@ -146,7 +149,9 @@ class ModelCompiler {
       node.depth = above.depth + 1;
       node.kept_above = above.is_kept ? parent : above.kept_above;
       node.kept_rank = above.is_kept ? rank : above.kept_rank;
+      node.gain = above.gain;
     }
+    if (op == Op::kDisplace) node.gain *= static_cast<float>((1 + model_->displacements[index].amount) * (1 + kRounding));
     model_->operators.push_back(node);
     return static_cast<std::uint32_t>(model_->operators.size() - 1);
   }
@@ -237,6 +242,13 @@ class ModelCompiler {
     pending_.push_back({children[0], difference, 0});
   }
 
+  void visit_operator(const Displacement& displacement, NodeId id, std::uint32_t parent, std::uint8_t rank) {
+    model_->displacements.push_back(displacement);
+    const std::uint32_t node = add_operator(Op::kDisplace, 1, model_->displacements.size() - 1, parent, rank);
+    model_->warps_noise = model_->warps_noise || is_warped(*model_, node);
+    pending_.push_back({tree_.nodes[id].children[0], node, 0});
+  }
+
   void visit_warp(Warp warp, NodeId id, std::uint32_t parent, std::uint8_t rank) {
     model_->warps.push_back(std::move(warp));
     pending_.push_back(
@@ -312,11 +324,14 @@ class ModelCompiler {
     model.nodes.shrink_to_fit();
     model.operators.shrink_to_fit();
     model.warps.shrink_to_fit();
+    model.displacements.shrink_to_fit();
     model.takes_away = std::any_of(model.operators.begin(), model.operators.end(), [](const FieldOperator& node) {
       return node.op == Op::kNegate || node.op == Op::kDifference;
     });
     // No primitive's field exceeds 1, and no contact adds more than that for each of its children.
-    const auto most = static_cast<double>(model.cones.size());
+    float gain = 1;
+    for (const FieldOperator& node : model.operators) gain = std::max(gain, node.gain);
+    const double most = static_cast<double>(gain) * static_cast<double>(model.cones.size());
     model.bounds = {{has_negatives_ ? -most : 0, most}, std::numeric_limits<double>::infinity()};
   }
 

@@ -62,7 +62,7 @@ std::size_t FieldModel::memory() const {
          sums.capacity() * sizeof(std::uint32_t) + nodes.capacity() * sizeof(NodeId) + supports.memory() +
          ancestors.memory() + operators.capacity() * sizeof(FieldOperator) + others.capacity() * sizeof(Other) +
          exponents.capacity() * sizeof(double) + contacts.capacity() * sizeof(ContactShape) +
-         warps.capacity() * sizeof(Warp);
+         warps.capacity() * sizeof(Warp) + displacements.capacity() * sizeof(Displacement);
 }
 
 bool is_warped(const FieldModel& model, std::uint32_t sum) {

@@ -106,8 +106,9 @@ void meet(const FieldModel& model, std::span<const std::uint32_t> primitives, co
   const auto keep = [&](std::uint32_t number, const ConeBounds& bounds, const Interval& reach) {
     meeting.primitives.push_back(number);
     meeting.cones.push_back(bounds);
-    if (model.takes_away && only_takes_away(model, model.sums[number])) return;
-    meeting.highest_sum += bounds.field.value.hi;
+    const std::uint32_t sum = model.sums[number];
+    if (model.takes_away && only_takes_away(model, sum)) return;
+    meeting.highest_sum += static_cast<double>(model.operators[sum].gain) * bounds.field.value.hi;
     meeting.reach = {std::min(meeting.reach.lo, reach.lo), std::max(meeting.reach.hi, reach.hi)};
   };
   bool are_all_cones = true;

@@ -18,21 +18,20 @@ namespace {
 
 using ModelPtr = std::shared_ptr<const FieldModel>;
 
-// Where no operator makes more of its operands than their sum, and k primitives matter at a point of the solid, the
-// strongest of them has at least the k-th part of the iso-value there: the point is within that one's level of this
-// normalised distance.
+// Where no operator makes more of its operands than their sum, times the gain of displacements, and k primitives matter
+// at a point of the solid, the strongest of them has, times its gain, at least the k-th part of the iso-value there: the
+// point is within that one's level of this normalised distance.
 constexpr std::size_t kMostCounted = 32;
 
+double level_distance(std::size_t count, double gain) {
+  constexpr double kRounding = 1e-5;
+  return falloff_distance(kIsoValue / (static_cast<double>(count) * gain)) * (1 + kRounding);
+}
+
+// Without displacements.
 std::array<double, kMostCounted + 1> level_distances() {
   std::array<double, kMostCounted + 1> distances{};
-  for (std::size_t k = 1; k <= kMostCounted; ++k) {
-    double lo = 0, hi = 1;
-    for (int i = 0; i < 40; ++i) {
-      const double middle = 0.5 * (lo + hi);
-      (falloff(middle * middle) < kIsoValue / static_cast<double>(k) ? hi : lo) = middle;
-    }
-    distances[k] = hi * (1 + 1e-5);
-  }
+  for (std::size_t k = 1; k <= kMostCounted; ++k) distances[k] = level_distance(k, 1);
   return distances;
 }
 
@@ -154,7 +153,9 @@ class Planner {
         return add_piece(sum, tube, middle, to, plan);
       }
       if (reaching_.size() > kMostCounted) break;
-      cylinder = cylinder_of(model_, sum, tube, kDistances[std::max<std::size_t>(1, reaching_.size())], from, to);
+      const std::size_t count = std::max<std::size_t>(1, reaching_.size());
+      const auto gain = static_cast<double>(model_.operators[sum].gain);
+      cylinder = cylinder_of(model_, sum, tube, gain > 1 ? level_distance(count, gain) : kDistances[count], from, to);
     }
     if (cylinder) add(*cylinder, plan);
   }
@@ -287,9 +288,10 @@ class ModelCells final : public SurfaceCells {
     const Interval reach = meeting.reach;
     if (reach.empty() || (model_->is_below_sum && meeting.highest_sum < kIsoValue)) return std::nullopt;
     const double length = reach.hi - reach.lo, middle = 0.5 * (reach.lo + reach.hi);
-    // Under warps only short pieces have good bounds.
+    // Under warps and displacements only short pieces have good bounds.
     constexpr double kMuchShorter = 0.7, kMostVariation = 24;
-    const bool may_shorten = !model_->warps.empty() && length > 2 * tolerance;
+    const bool is_displaced = !model_->displacements.empty();
+    const bool may_shorten = (is_displaced || !model_->warps.empty()) && length > 2 * tolerance;
     if (may_shorten && length < kMuchShorter * (range.hi - range.lo)) {
       return search(primitives, ray, reach, limit, tolerance, any);
     }
@@ -297,7 +299,8 @@ class ModelCells final : public SurfaceCells {
     assemble(*model_, meeting.primitives, met);
     const FieldBounds bounds = bound_along(*model_, met, meeting, ray, reach, rest);
     if (bounds.value.hi < kIsoValue) return std::nullopt;
-    if (may_shorten && std::isinf(bounds.second.lo) && bounds.slope * length > kMostVariation) {
+    const bool has_poor_bounds = is_displaced || std::isinf(bounds.second.lo);
+    if (may_shorten && has_poor_bounds && bounds.slope * length > kMostVariation) {
       const std::optional<SurfacePoint> first = search(primitives, ray, {reach.lo, middle}, limit, tolerance, any);
       return first ? first : search(primitives, ray, {middle, reach.hi}, limit, tolerance, any);
     }

@@ -21,6 +21,9 @@ inline void add(FieldBounds& sum, const FieldBounds& summand) {
 /// Those of F o w from those of F, with bounds of w as in WarpedBox: (F o w)'' is F'' along w' plus F' along w''.
 FieldBounds through_warp(FieldBounds bounds, double stretch, double curvature, double jump);
 
+/// Those of F (1 + amount n) from those of F and n.
+FieldBounds displaced(const FieldBounds& field, double amount, const FieldBounds& noise);
+
 FieldBounds bounds_of(const Sum&, std::span<const FieldBounds> children);
 FieldBounds bounds_of(const Ricci& ricci, std::span<const FieldBounds> children);
 FieldBounds bounds_of(const Union&, std::span<const FieldBounds> children);

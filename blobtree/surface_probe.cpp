@@ -7,6 +7,7 @@
 #include "blobtree/contact.h"
 #include "blobtree/field_model.h"
 #include "blobtree/primitive.h"
+#include "blobtree/solid_noise.h"
 
 namespace barkridge {
 
@@ -75,6 +76,13 @@ class Walk {
       case Op::kNegate:
         negate(operands_.back());
         break;
+      case Op::kDisplace: {
+        const Displacement& displacement = model_.displacements[instruction.index];
+        const double factor = 1 + displacement.amount * sample(displacement.noise, places_.back().point).value;
+        operands_.back().value *= factor;
+        operands_.back().deformation *= factor;
+        break;
+      }
       case Op::kSum:
         sum(instruction.count);
         break;
