@@ -25,8 +25,9 @@ constexpr std::uint32_t lattice_seed(std::uint64_t seed) { return static_cast<st
 /// across: z below the first of these numbers, y below the second, else x.
 inline constexpr std::uint32_t kAcrossZ = 21846, kAcrossY = 43691;
 
-/// No gradient noise has a longer slope, nor a larger second derivative along a line, whatever the corners' slopes: the
-/// largest of sums over the corners of what one of them can add.
+/// No gradient noise is larger, has a longer slope or a larger second derivative along a line, whatever the corners'
+/// slopes: the largest of sums over the corners of what one of them can add.
+inline constexpr double kHighestNoise = 1.0364;
 inline constexpr double kSteepestNoise = 3.7501;
 inline constexpr double kMostBentNoise = 14.466;
 

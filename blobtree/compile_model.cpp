@@ -101,8 +101,8 @@ class ModelCompiler {
     model_->units.scale = std::ldexp(1.0, -exponent);
     // Coarse enough for most batches to have one origin, fine enough for the thinnest twig and the finest noise.
     constexpr double kThinnestRadii = 128, kFinestWaves = 16;
-    const double wanted =
-        std::min(kThinnestRadii * thinnest_radius(tree_), kFinestWaves * finest_wavelength(tree_)) * model_->units.scale;
+    const double wanted = std::min(kThinnestRadii * thinnest_radius(tree_), kFinestWaves * finest_wavelength(tree_)) *
+                          model_->units.scale;
     model_->units.origin_spacing = std::exp2(std::round(std::log2(std::clamp(wanted, 0x1p-14, 0x1p-4))));
   }
 
@@ -139,7 +139,8 @@ class ModelCompiler {
                              std::uint8_t rank) {
     FieldOperator node{op};
     node.is_kept = op == Op::kNegate || op == Op::kDisplace || op == Op::kRicci || op == Op::kIntersection ||
-                   op == Op::kDifference || op == Op::kEnterWarp || (has_negatives_ && (op == Op::kUnion || op == Op::kContact));
+                   op == Op::kDifference || op == Op::kEnterWarp ||
+                   (has_negatives_ && (op == Op::kUnion || op == Op::kContact));
     node.rank = rank;
     node.index = static_cast<std::uint32_t>(index);
     node.operand_count = static_cast<std::uint32_t>(operand_count);
@@ -151,7 +152,8 @@ class ModelCompiler {
       node.kept_rank = above.is_kept ? rank : above.kept_rank;
       node.gain = above.gain;
     }
-    if (op == Op::kDisplace) node.gain *= static_cast<float>((1 + model_->displacements[index].amount) * (1 + kRounding));
+    if (op == Op::kDisplace)
+      node.gain *= static_cast<float>((1 + model_->displacements[index].amount) * (1 + kRounding));
     model_->operators.push_back(node);
     return static_cast<std::uint32_t>(model_->operators.size() - 1);
   }

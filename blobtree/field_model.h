@@ -72,8 +72,8 @@ struct FieldModel {
   ModelUnits units;
   /// Enclose all values and gradients anywhere.
   FieldBounds bounds;
-  /// Whether no operator makes more of its operands than their sum, but for the gain of displacements. Only contact with
-  /// large swelling does.
+  /// Whether no operator makes more of its operands than their sum, but for the gain of displacements. Only contact
+  /// with large swelling does.
   bool is_below_sum = true;
   /// Whether some displacement stands under a warp.
   bool warps_noise = false;

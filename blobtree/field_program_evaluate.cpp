@@ -252,7 +252,7 @@ class Machine {
   bool has_warps_;
   bool is_on_line_ = false;
   Vec3 line_direction_{0};
-  std::size_t noise_fields_ = 0;        // the slot of noises, behind all fields
+  std::size_t noise_fields_ = 0;       // the slot of noises, behind all fields
   const SolidNoise* noise_ = nullptr;  // whose values stand there
 };
 

@@ -91,9 +91,9 @@ class TreeBuilder {
   }
 
  private:
-  // A primitive and perhaps a bend and a displacement for every internode, and again with a sum where it carries a group; a union and a
-  // sum where it is united with what it carries; a contact where branches touch, and a sum for each of several
-  // internodes; what joins the roots.
+  // A primitive and perhaps a bend and a displacement for every internode, and again with a sum where it carries a
+  // group; a union and a sum where it is united with what it carries; a contact where branches touch, and a sum for
+  // each of several internodes; what joins the roots.
   std::size_t most_nodes() const {
     const std::size_t for_each = 1 + (plant_.has_arcs() ? 1 : 0) + (plant_.is_displaced() ? 1 : 0);
     std::size_t most = plant_.size() * for_each;

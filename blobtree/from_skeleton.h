@@ -53,8 +53,9 @@ struct TipRule {
   double length = 5;  ///< from the internode's tip, in radii there; at least kShortestTip
 };
 
-/// Moves the surface of thick branches in and out, as furrowed bark does. Twigs are too young for that: the amount falls
-/// to nothing from 1.6 to 0.55 of `furrowed_radius`, by an internode's mean radius. [docs/field.md, "Displacement"]
+/// Moves the surface of thick branches in and out, as furrowed bark does. Twigs are too young for that: the amount
+/// falls to nothing from 1.6 to 0.55 of `furrowed_radius`, by an internode's mean radius. [docs/field.md,
+/// "Displacement"]
 struct DisplacementOptions {
   double amount = 0;  ///< that of Displacement, in [0, 0.5), so that no axis is laid open; 0 for none
   /// Those of SolidNoise. Without a wavelength it is kFurrowWidth of the thickest branch's radius.

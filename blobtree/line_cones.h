@@ -13,7 +13,8 @@ struct LineMeeting {
   /// The part of the range on which the sum of the primitives that can add to the model's field can be positive; empty
   /// if there is none.
   Interval reach;
-  /// At least what they, with the gain of all displacements above them, add up to anywhere on it; infinite where there are others than cones.
+  /// At least what they, with the gain of all displacements above them, add up to anywhere on it; infinite where there
+  /// are others than cones.
   double highest_sum = 0;
   /// Those that matter on the range, in rising order.
   std::vector<std::uint32_t> primitives;

@@ -19,8 +19,8 @@ namespace {
 using ModelPtr = std::shared_ptr<const FieldModel>;
 
 // Where no operator makes more of its operands than their sum, times the gain of displacements, and k primitives matter
-// at a point of the solid, the strongest of them has, times its gain, at least the k-th part of the iso-value there: the
-// point is within that one's level of this normalised distance.
+// at a point of the solid, the strongest of them has, times its gain, at least the k-th part of the iso-value there:
+// the point is within that one's level of this normalised distance.
 constexpr std::size_t kMostCounted = 32;
 
 double level_distance(std::size_t count, double gain) {

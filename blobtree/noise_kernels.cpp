@@ -43,15 +43,13 @@ HWY_INLINE Cell cell_at(double start, Vec offset, std::uint32_t factor) {
   cell.upper = hn::Add(cell.lower, bits(factor));
   cell.over = hn::Sub(x, lower);
   const Vec t = cell.over, rest = hn::Mul(t, hn::Sub(t, constant(1)));
-  cell.weight = hn::Mul(hn::Mul(hn::Mul(t, t), t),
-                        hn::MulAdd(t, hn::MulAdd(constant(6), t, constant(-15)), constant(10)));
+  cell.weight =
+      hn::Mul(hn::Mul(hn::Mul(t, t), t), hn::MulAdd(t, hn::MulAdd(constant(6), t, constant(-15)), constant(10)));
   cell.weight_slope = hn::Mul(constant(30), hn::Mul(rest, rest));
   return cell;
 }
 
-HWY_INLINE Vec with_sign(Vec x, Bits sign) {
-  return hn::BitCast(Tag(), hn::Xor(hn::BitCast(BitsTag(), x), sign));
-}
+HWY_INLINE Vec with_sign(Vec x, Bits sign) { return hn::BitCast(Tag(), hn::Xor(hn::BitCast(BitsTag(), x), sign)); }
 
 struct Sum {
   Vec value, x, y, z;
@@ -92,8 +90,8 @@ HWY_INLINE Sum noise_in(const Cell& x, const Cell& y, const Cell& z, std::uint32
   const Vec under[3] = {hn::Sub(x.over, one), hn::Sub(y.over, one), hn::Sub(z.over, one)};
   for (int corner = 0; corner < 8; ++corner) {
     const bool cx = corner & 1, cy = corner >> 1 & 1, cz = corner >> 2;
-    const Bits hash = hn::Add(hn::Add(bits(seed), cx ? x.upper : x.lower),
-                              hn::Add(cy ? y.upper : y.lower, cz ? z.upper : z.lower));
+    const Bits hash =
+        hn::Add(hn::Add(bits(seed), cx ? x.upper : x.lower), hn::Add(cy ? y.upper : y.lower, cz ? z.upper : z.lower));
     const Vec d[3] = {cx ? under[0] : x.over, cy ? under[1] : y.over, cz ? under[2] : z.over};
     const Vec w[3] = {cx ? x.weight : rest[0], cy ? y.weight : rest[1], cz ? z.weight : rest[2]};
     const Vec slope[3] = {cx ? x.weight_slope : falling[0], cy ? y.weight_slope : falling[1],

@@ -68,8 +68,7 @@ FieldBounds displaced(const FieldBounds& field, double amount, const FieldBounds
   const double steepness = amount * noise.slope;
   FieldBounds result;
   result.value = product(field.value, factor);
-  result.slope =
-      field.slope * factor.hi + product({0, steepness}, {0, std::max(-field.value.lo, field.value.hi)}).hi;
+  result.slope = field.slope * factor.hi + product({0, steepness}, {0, std::max(-field.value.lo, field.value.hi)}).hi;
   // F'' (1 + a n) + 2 a F' n' + a F n''
   const Interval bent = product(field.second, factor);
   const Interval by_noise = product(field.value, {amount * noise.second.lo, amount * noise.second.hi});

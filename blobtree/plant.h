@@ -43,8 +43,8 @@ class Plant {
   const CutEnd* cut_end_of(std::size_t i) const;
   const Scar* scar_of(std::size_t i) const;
 
-  /// The internode's primitive, perhaps under a bend and a displacement. That of a cut end goes on straight past the cut, by
-  /// `length_past_cut`, for the cut to take away; what is shed has none. Adds at most three nodes.
+  /// The internode's primitive, perhaps under a bend and a displacement. That of a cut end goes on straight past the
+  /// cut, by `length_past_cut`, for the cut to take away; what is shed has none. Adds at most three nodes.
   NodeId add_primitive(BlobTree& tree, std::size_t i) const;
 
  private:

@@ -74,9 +74,10 @@ ShapedRange ridged(const Interval& x) {
 }  // namespace
 
 NoiseOctave octave_of(const SolidNoise& noise, int number) {
-  const double frequency = std::exp2(number) / noise.wavelength;
+  const double frequency = (1 << number) / noise.wavelength;
   NoiseOctave octave;
-  octave.height = std::exp2(noise.octaves - 1 - number) / (std::exp2(noise.octaves) - 1);
+  // 4^-k, so that finer octaves are less steep, too.
+  octave.height = 3.0 * (1 << 2 * (noise.octaves - 1 - number)) / ((1 << 2 * noise.octaves) - 1);
   octave.frequency = {frequency, frequency / noise.stretch, frequency};
   // So that the zeros at the corners of one lattice are none of the next one's.
   octave.shift = static_cast<double>(number) * Vec3(0.37, 0.61, 0.23);
@@ -103,9 +104,14 @@ FieldBounds bounds_of(const SolidNoise& noise, const Vec3& center, double distan
     // but for how much it bends on the way.
     const double frequency = std::max(octave.frequency.x, octave.frequency.y);
     const double reach = frequency * distance;
-    const Graded x = gradient_noise(center * octave.frequency + octave.shift, octave.seed);
-    const double steepest = std::min(kSteepestNoise, glm::length(x.slope) + kMostBentNoise * reach);
-    const Interval values{x.value - steepest * reach, x.value + steepest * reach};
+    Interval values{-kHighestNoise, kHighestNoise};
+    double steepest = kSteepestNoise;
+    // Farther away noise can be anything, wherever it starts.
+    if (kSteepestNoise * reach < kHighestNoise) {
+      const Graded x = gradient_noise(center * octave.frequency + octave.shift, octave.seed);
+      steepest = std::min(steepest, glm::length(x.slope) + kMostBentNoise * reach);
+      values = {std::max(values.lo, x.value - steepest * reach), std::min(values.hi, x.value + steepest * reach)};
+    }
     const ShapedRange range = noise.ridged ? ridged(values) : plain(values);
     sum.value.lo += octave.height * range.value.lo;
     sum.value.hi += octave.height * range.value.hi;

@@ -20,7 +20,7 @@ struct NoiseOctave {
 NoiseOctave octave_of(const SolidNoise& noise, int number);
 
 /// The shapes of noise x: plain x / sqrt(x^2 + w^2), ridged 2 x^2 / (x^2 + w^2) - 1, with w these.
-inline constexpr double kHillWidth = 0.5, kFissureWidth = 0.2;
+inline constexpr double kHillWidth = 0.5, kFissureWidth = 0.3;
 
 /// Value and gradient, in double precision by the plain formulas.
 Graded sample(const SolidNoise& noise, const Vec3& p);

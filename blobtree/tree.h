@@ -115,7 +115,7 @@ inline constexpr int kMostNoiseOctaves = 8;
 struct SolidNoise {
   double wavelength = 1;  ///< > 0: the distance between neighbouring features of the first octave, in the plane y = 0
   double stretch = 1;     ///< > 0: by how much they are longer along y
-  int octaves = 3;        ///< 1 to kMostNoiseOctaves, each of half the wavelength and height of the last
+  int octaves = 3;        ///< 1 to kMostNoiseOctaves, each of half the wavelength and a quarter of the height
   bool ridged = false;    ///< narrow fissures between plateaus, instead of hills and valleys alike
   int seed = 0;
 

@@ -495,7 +495,8 @@ void add_surface_keys(Keys& keys) {
   add_ridge_keys(keys);
   keys.push_back(number(
       "mesh.cell_size", above(0), [](auto& s) -> auto& { return s.cell_size; },
-      "Edge length of the sampling cells. Left out, half the thinnest branch's radius, and at most a quarter of the finest "
+      "Edge length of the sampling cells. Left out, half the thinnest branch's radius, and at most a quarter of the "
+      "finest "
       "displacement's wavelength."));
   keys.push_back(integer(
       "mesh.max_triangles", 1, kMost, [](auto& s) -> auto& { return s.max_triangles; },
@@ -601,7 +602,7 @@ void add_displacement_keys(Keys& keys) {
       "By how much furrows are longer along y than across."));
   keys.push_back(integer(
       "displacement.octaves", 1, kMostNoiseOctaves, [](auto& s) -> auto& { return s.tree.displacement.octaves; },
-      "Layers of noise, each half as wide and half as deep as the one before."));
+      "Layers of noise, each half as wide and a quarter as deep as the one before."));
   keys.push_back(flag(
       "displacement.ridged", [](auto& s) -> auto& { return s.tree.displacement.ridged; },
       "Whether there are narrow fissures between plateaus, instead of hills and valleys alike."));

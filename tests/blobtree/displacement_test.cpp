@@ -137,7 +137,8 @@ TEST_CASE("bounds of noise hold around a point, for its second derivative too, a
       REQUIRE(bounds.value.contains(at.value));
       REQUIRE(glm::length(at.slope) <= bounds.slope);
       const double step = 1e-6 * noise.wavelength;
-      const double second = glm::dot(sample(noise, p + step * along).slope - sample(noise, p - step * along).slope, along) / (2 * step);
+      const double second =
+          glm::dot(sample(noise, p + step * along).slope - sample(noise, p - step * along).slope, along) / (2 * step);
       const double scale = std::max(-bounds.second.lo, bounds.second.hi);
       REQUIRE(second >= bounds.second.lo - 1e-5 * scale);
       REQUIRE(second <= bounds.second.hi + 1e-5 * scale);
@@ -201,7 +202,8 @@ TEST_CASE("a displaced plant keeps its internodes' primitives, bent or not") {
   std::size_t displacements = 0;
   for (const Node& node : plant.tree.nodes) displacements += std::holds_alternative<Displacement>(node.what);
   CHECK(displacements == plant.primitives.size());
-  for (const NodeId primitive : plant.primitives) CHECK(std::holds_alternative<FadedCone>(plant.tree.nodes[primitive].what));
+  for (const NodeId primitive : plant.primitives)
+    CHECK(std::holds_alternative<FadedCone>(plant.tree.nodes[primitive].what));
 }
 
 TEST_CASE("a displacement outside its range is refused") {

@@ -85,21 +85,24 @@ TEST_CASE("random trees of both junction kinds become one closed manifold each, 
 }
 
 TEST_CASE("displaced random trees become closed manifolds whose vertices lie on the displaced surface") {
-  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+  for (std::uint64_t seed = 0; seed < 16; ++seed) {
     const Skeleton skeleton = random_skeleton(seed, 8);
     TreeOptions options;
     options.junction = seed % 2 ? JunctionKind::kRidge : JunctionKind::kSmooth;
-    options.displacement.amount = 0.35;
+    options.displacement.amount = 0.12;
     options.displacement.octaves = 2;
     options.displacement.ridged = seed % 4 < 2;
     const BlobTree tree = tree_from_skeleton(skeleton, options);
     const auto field = compile(tree);
     PolygonizeOptions cells;
     cells.cell_size = std::min(0.5 * barkridge::thinnest_radius(tree), 0.25 * finest_wavelength(tree));
-    const Mesh mesh = polygonize(*field, cells);
     CAPTURE(seed);
-    const MeshReport report = test::require_closed_manifold(mesh);
+    const MeshReport report = test::require_closed_manifold(polygonize(*field, cells));
     CHECK(report.components == 1);
+    // Closed creases are off the surface.
+    cells.close_creases = false;
+    const Mesh mesh = polygonize(*field, cells);
+    test::require_closed_manifold(mesh);
     const auto oracle = reference_field(tree);
     std::size_t off = 0;
     for (const glm::vec3& position : mesh.positions) {
@@ -107,9 +110,9 @@ TEST_CASE("displaced random trees become closed manifolds whose vertices lie on 
       double value = 0;
       Vec3 gradient;
       oracle->values_and_gradients({&p, 1}, {&value, 1}, {&gradient, 1});
-      off += std::abs(value - kIsoValue) > 0.05 * cells.cell_size * glm::length(gradient);
+      off += std::abs(value - kIsoValue) > 2e-3 * cells.cell_size * glm::length(gradient) + 2e-5;
     }
-    CHECK(off <= mesh.positions.size() / 100);  // creases are closed off the surface
+    CHECK(off <= mesh.positions.size() / 1000);  // where the gradient jumps at a crease, or nearly vanishes
   }
 }
 
