@@ -116,7 +116,7 @@ TEST_CASE("a scene displaces thick branches, and its cells resolve the finest wa
   const Model model = make_model(scene);
   // The branches' mean radii are less than 0.55 of furrowed_radius.
   CHECK(std::count_if(model.tree.nodes.begin(), model.tree.nodes.end(),
-                      [](const Node& node) { return std::holds_alternative<Displacement>(node.what); }) == 2);
+                      [](const Node& node) { return std::holds_alternative<Displacement>(node.what); }) == 1);
   CHECK(cell_size(scene, model) == Approx(0.08 / 4 / 4));
 
   const Scene smooth = load_scene(path, std::vector{parse_override("displacement.amount=0")});
