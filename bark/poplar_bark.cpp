@@ -2,7 +2,7 @@
 
 #include <glm/common.hpp>
 
-#include "bark/noise.h"
+#include "base/noise.h"
 #include "base/random.h"
 
 namespace barkridge {

@@ -2,7 +2,7 @@
 // The bark of a poplar: smooth and pale with lenticels on what is thin, furrowed on what is thick.
 
 #include "bark/branch_coordinates.h"
-#include "bark/graded.h"
+#include "base/graded.h"
 #include "raytrace/surface_shader.h"
 
 namespace barkridge {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "bark/noise.h"
+#include "base/noise.h"
 
 namespace barkridge {
 

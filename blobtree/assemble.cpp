@@ -159,6 +159,9 @@ class Assembler {
       case Op::kNegate:
         emit(Op::kNegate);
         break;
+      case Op::kDisplace:
+        emit(Op::kDisplace, 1, node.index);
+        break;
       case Op::kRicci:
         emit(Op::kRicci, 1, node.index);
         break;

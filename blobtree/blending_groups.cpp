@@ -13,6 +13,7 @@
 #include "blobtree/box_hierarchy.h"
 #include "blobtree/cone_record.h"
 #include "blobtree/cylinder.h"
+#include "blobtree/ray_bundle.h"
 
 namespace barkridge {
 
@@ -147,8 +148,8 @@ class GroupFinder {
       const double cosine = glm::dot(reach.axis, own.axis);
       reach.half_length += own.radius * std::sqrt(std::max(0.0, 1 - cosine * cosine));
       reach.radius += own.radius;
-      const Interval beside = clip(axis, reach, part);
-      if (!beside.empty()) found.push_back(beside);
+      RayRanges beside;
+      if (clip(RayBundle(axis, part), 1, reach, beside) != 0) found.push_back(beside[0]);
     }
   }
 

@@ -22,6 +22,8 @@ namespace {
 
 using Op = FieldInstruction::Op;
 
+constexpr double kRounding = 1e-6;
+
 bool is_primitive(const Node& node) { return node.children.empty(); }
 
 // How deep a stack a node's evaluation needs when its children go by falling need. [Sethi and Ullman 1970]
@@ -101,9 +103,10 @@ class ModelCompiler {
     int exponent = 0;
     if (largest > 0 && std::isfinite(largest)) std::frexp(largest, &exponent);
     model_->units.scale = std::ldexp(1.0, -exponent);
-    // Coarse enough for most batches to have one origin, fine enough for the thinnest twig.
-    constexpr double kThinnestRadii = 128;
-    const double wanted = kThinnestRadii * thinnest_radius(tree_) * model_->units.scale;
+    // Coarse enough for most batches to have one origin, fine enough for the thinnest twig and the finest noise.
+    constexpr double kThinnestRadii = 128, kFinestWaves = 16;
+    const double wanted = std::min(kThinnestRadii * thinnest_radius(tree_), kFinestWaves * finest_wavelength(tree_)) *
+                          model_->units.scale;
     model_->units.origin_spacing = std::exp2(std::round(std::log2(std::clamp(wanted, 0x1p-14, 0x1p-4))));
   }
 
@@ -138,8 +141,9 @@ class ModelCompiler {
   std::uint32_t add_operator(Op op, std::size_t operand_count, std::size_t index, std::uint32_t parent,
                              std::uint8_t rank) {
     FieldOperator node{op};
-    node.is_kept = op == Op::kNegate || op == Op::kRicci || op == Op::kIntersection || op == Op::kDifference ||
-                   op == Op::kEnterWarp || (has_negatives_ && (op == Op::kUnion || op == Op::kContact));
+    node.is_kept = op == Op::kNegate || op == Op::kDisplace || op == Op::kRicci || op == Op::kIntersection ||
+                   op == Op::kDifference || op == Op::kEnterWarp ||
+                   (has_negatives_ && (op == Op::kUnion || op == Op::kContact));
     node.rank = rank;
     node.index = static_cast<std::uint32_t>(index);
     node.operand_count = static_cast<std::uint32_t>(operand_count);
@@ -149,7 +153,10 @@ class ModelCompiler {
       node.depth = above.depth + 1;
       node.kept_above = above.is_kept ? parent : above.kept_above;
       node.kept_rank = above.is_kept ? rank : above.kept_rank;
+      node.gain = above.gain;
     }
+    if (op == Op::kDisplace)
+      node.gain *= static_cast<float>((1 + model_->displacements[index].amount) * (1 + kRounding));
     model_->operators.push_back(node);
     return static_cast<std::uint32_t>(model_->operators.size() - 1);
   }
@@ -240,6 +247,13 @@ class ModelCompiler {
     pending_.push_back({children[0], difference, 0});
   }
 
+  void visit_operator(const Displacement& displacement, NodeId id, std::uint32_t parent, std::uint8_t rank) {
+    model_->displacements.push_back(displacement);
+    const std::uint32_t node = add_operator(Op::kDisplace, 1, model_->displacements.size() - 1, parent, rank);
+    model_->warps_noise = model_->warps_noise || is_warped(*model_, node);
+    pending_.push_back({tree_.nodes[id].children[0], node, 0});
+  }
+
   void visit_warp(Warp warp, NodeId id, std::uint32_t parent, std::uint8_t rank) {
     model_->warps.push_back(std::move(warp));
     warp_nodes_.push_back(id);
@@ -324,7 +338,8 @@ class ModelCompiler {
     const std::vector<std::uint32_t>& sums = model_->sums;
     const std::uint32_t above = common_ancestor(sums[a], sums[b]);
     return model_->operators[above].op == Op::kUnion && !only_takes_away(*model_, sums[a]) &&
-           !only_takes_away(*model_, sums[b]) && warps_below(above, sums[a]) == warps_below(above, sums[b]);
+           !only_takes_away(*model_, sums[b]) && model_->operators[sums[a]].gain == model_->operators[sums[b]].gain &&
+           warps_below(above, sums[a]) == warps_below(above, sums[b]);
   }
 
   // What the warps between two operators are in the tree, from the lowest on.
@@ -395,11 +410,14 @@ class ModelCompiler {
     model.places.shrink_to_fit();
     model.operators.shrink_to_fit();
     model.warps.shrink_to_fit();
+    model.displacements.shrink_to_fit();
     model.takes_away = std::any_of(model.operators.begin(), model.operators.end(), [](const FieldOperator& node) {
       return node.op == Op::kNegate || node.op == Op::kDifference;
     });
     // No primitive's field exceeds 1, and no contact adds more than that for each of its children.
-    const auto most = static_cast<double>(model.cones.size());
+    float gain = 1;
+    for (const FieldOperator& node : model.operators) gain = std::max(gain, node.gain);
+    const double most = static_cast<double>(gain) * static_cast<double>(model.cones.size());
     model.bounds = {{has_negatives_ ? -most : 0, most}, std::numeric_limits<double>::infinity()};
   }
 

@@ -24,6 +24,16 @@ inline double falloff_slope(double v) {
   return -t * (2.0 * (1.0 - v * (4.0 / 9.0)) + t * (4.0 / 9.0));
 }
 
+/// The u at which the falloff has a value in [0, 1], or a little more.
+inline double falloff_distance(double value) {
+  double lo = 0, hi = 1;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (lo + hi);
+    (falloff(middle * middle) > value ? lo : hi) = middle;
+  }
+  return hi;
+}
+
 /// Where |dg/du| is largest, and how large: the falloff's Lipschitz constant in u.
 inline constexpr double kSteepestDistance = 0.50347;
 inline constexpr double kSteepestFalloff = 1.58343;

@@ -62,7 +62,8 @@ std::size_t FieldModel::memory() const {
          nodes.capacity() * sizeof(NodeId) + places.capacity() * sizeof(PrimitivePlaces) + supports.memory() +
          sums.capacity() * sizeof(std::uint32_t) + ancestors.memory() + operators.capacity() * sizeof(FieldOperator) +
          others.capacity() * sizeof(Other) + exponents.capacity() * sizeof(double) +
-         contacts.capacity() * sizeof(ContactShape) + warps.capacity() * sizeof(Warp);
+         contacts.capacity() * sizeof(ContactShape) + warps.capacity() * sizeof(Warp) +
+         displacements.capacity() * sizeof(Displacement);
 }
 
 bool is_warped(const FieldModel& model, std::uint32_t sum) {

@@ -24,6 +24,8 @@ struct FieldOperator {
   std::uint32_t operand_count = 0;  ///< of a sum: at least 1
   std::uint32_t parent = kNoOperator;
   std::uint32_t depth = 0;
+  /// At least by how much all displacements from here up can increase a field.
+  float gain = 1;
   /// The nearest operator above that changes even a lone operand, and the rank of what leads to it from here.
   std::uint32_t kept_above = kNoOperator;
 };
@@ -75,14 +77,18 @@ struct FieldModel {
   std::vector<double> exponents;
   std::vector<ContactShape> contacts;
   std::vector<Warp> warps;
+  std::vector<Displacement> displacements;
 
   Box support;
   /// The scale is the power of two that brings the model's largest extent between 1/2 and 1.
   ModelUnits units;
   /// Enclose all values and gradients anywhere.
   FieldBounds bounds;
-  /// Whether no operator makes more of its operands than their sum. Only contact with large swelling does.
+  /// Whether no operator makes more of its operands than their sum, but for the gain of displacements. Only contact
+  /// with large swelling does.
   bool is_below_sum = true;
+  /// Whether some displacement stands under a warp.
+  bool warps_noise = false;
   /// Whether some primitives are subtracted.
   bool takes_away = false;
 

@@ -23,8 +23,9 @@ struct FieldInstruction {
     kZero,
     kCones,  // the sum of `count` cones from `index` on in the program's list
     kOther,  // index: the model's other primitives
-    // This changes the top.
+    // These change the top.
     kNegate,
+    kDisplace,  // index: displacements
     // These replace the top `count` fields by one, in the order in which they were pushed.
     kSum,
     kRicci,  // index: exponents
@@ -55,6 +56,7 @@ struct ConeReference {
 struct FieldProgramDepth {
   std::size_t fields = 0;
   std::size_t warps = 0;
+  bool displaces = false;  ///< whether it holds a noise besides
 };
 
 struct FieldProgram {

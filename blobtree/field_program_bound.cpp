@@ -7,6 +7,7 @@
 #include "blobtree/line_cones.h"
 #include "blobtree/operator_bounds.h"
 #include "blobtree/primitive_bounds.h"
+#include "blobtree/solid_noise.h"
 
 namespace barkridge {
 
@@ -58,7 +59,7 @@ class Bounder {
   /// Along parts of rays, which lie in the box, and of which is known what they meet.
   FieldBounds run(const FieldProgram& program, const LineMeeting& meeting) {
     meeting_ = &meeting;
-    maps_boxes_ = !model_.others.empty();  // of cones all is known
+    maps_boxes_ = !model_.others.empty() || model_.warps_noise;  // of cones all is known
     return run(program);
   }
 
@@ -86,6 +87,9 @@ class Bounder {
       }
       case Op::kNegate:
         negate(instruction);
+        break;
+      case Op::kDisplace:
+        displace(instruction);
         break;
       case Op::kEnterWarp:
         enter(instruction);
@@ -168,6 +172,22 @@ class Bounder {
     top.bounds.value = {-top.bounds.value.hi, -top.bounds.value.lo};
     top.bounds.second = {-top.bounds.second.hi, -top.bounds.second.lo};
     rest_.push_back(instruction);
+  }
+
+  void displace(const FieldInstruction& instruction) {
+    Operand& top = stack_.back();
+    if (!top.live) return;
+    const Displacement& displacement = model_.displacements[instruction.index];
+    top.bounds = displaced(top.bounds, displacement.amount, bounds_of_noise(displacement.noise));
+    rest_.push_back(instruction);
+  }
+
+  // Those in the program's own box are kept, as most displacements share one noise.
+  FieldBounds bounds_of_noise(const SolidNoise& noise) {
+    if (warps_.empty() && noise_ && *noise_ == noise) return noise_bounds_;
+    noise_ = warps_.empty() ? &noise : nullptr;
+    noise_bounds_ = through_warps(bounds_of(noise, box_.center(), glm::length(box_.half_extent())));
+    return noise_bounds_;
   }
 
   void enter(const FieldInstruction& instruction) {
@@ -315,6 +335,9 @@ class Bounder {
   std::vector<Operand>& operands_;
   std::vector<FieldBounds>& children_;
   std::size_t start_ = 0;
+
+  const SolidNoise* noise_ = nullptr;  // whose bounds these are
+  FieldBounds noise_bounds_;
 
   const LineMeeting* meeting_ = nullptr;
   std::size_t next_met_ = 0;

@@ -7,6 +7,7 @@
 
 #include "blobtree/bend_kernels.h"
 #include "blobtree/disc_kernels.h"
+#include "blobtree/noise_kernels.h"
 #include "blobtree/operator_kernels.h"
 #include "blobtree/primitive.h"
 
@@ -42,14 +43,21 @@ Scratch& scratch_of_thread() {
   return scratch;
 }
 
+// How many columns a machine has: points, fields, and, where something is displaced, a noise and points on a line.
+std::size_t column_count(const FieldProgramDepth& depth, bool gradients) {
+  const std::size_t of_field = gradients ? 4 : 1;
+  return 3 * (depth.warps + 1) + of_field * depth.fields + (depth.displaces ? of_field + 3 : 0);
+}
+
 // Runs a program on batches of up to `capacity` points.
 class Machine {
  public:
   Machine(const FieldModel& model, const FieldProgram& program, std::size_t capacity, bool gradients, Scratch& scratch)
       : model_(model), program_(program), gradients_(gradients), capacity_(capacity), scratch_(scratch) {
     const FieldProgramDepth depth = depth_of(program);
-    numbers_ = scratch.take(capacity * (3 * (depth.warps + 1) + columns() * depth.fields));
+    numbers_ = scratch.take(capacity * column_count(depth, gradients));
     fields_ = numbers_ + 3 * capacity * (depth.warps + 1);
+    noise_fields_ = depth.fields;
     has_warps_ = depth.warps > 0;
     scratch.origins.resize(depth.warps + 1);
     scratch.fields.resize(depth.fields);
@@ -100,6 +108,8 @@ class Machine {
                                 model_.units.scale, reach));
     }
     is_on_line_ = true;
+    scratch_.origins[0] = origin;
+    line_direction_ = direction;
   }
 
   /// Runs the program on the first `size` points, relative to the origin, in units of the model.
@@ -109,6 +119,7 @@ class Machine {
       std::fill(point_column(axis) + size, point_column(axis) + whole, 0.0f);
     }
     std::size_t top = 0, level = 0, entered = 0;
+    noise_ = nullptr;
     PointBatch points = points_at(0, whole);
     std::vector<FieldColumns>& fields = scratch_.fields;
     for (const FieldInstruction& instruction : program_.code) {
@@ -125,6 +136,11 @@ class Machine {
         case Op::kNegate:
           negate(fields[top - 1], whole);
           break;
+        case Op::kDisplace: {
+          const Displacement& displacement = model_.displacements[instruction.index];
+          displace(displacement.amount, noise_at(points, displacement.noise, level), fields[top - 1], whole);
+          break;
+        }
         case Op::kEnterWarp:
           scratch_.origins[level + 1] = scratch_.entered[entered++];
           enter(model_.warps[instruction.index], points, level);
@@ -153,6 +169,27 @@ class Machine {
 
   PointBatch points_at(std::size_t level, std::size_t size) {
     return {scratch_.origins[level], {point_column(0, level), point_column(1, level), point_column(2, level)}, size};
+  }
+
+  // The values of a noise. Those at the program's own points are kept, as most displacements share one noise.
+  FieldColumns noise_at(PointBatch points, const SolidNoise& noise, std::size_t level) {
+    const FieldColumns out = slot(noise_fields_);
+    if (level == 0 && noise_ && *noise_ == noise) return out;
+    noise_ = level == 0 ? &noise : nullptr;
+    if (is_on_line_) points = points_on_line(points);
+    sample_noise(noise, model_.units.scale, points, out);
+    return out;
+  }
+
+  // The points whose parameters are known.
+  PointBatch points_on_line(PointBatch points) {
+    const float* const t = points.at[0];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      points.at[axis] = slot(noise_fields_ + 1).f + axis * capacity_;
+      const auto slope = static_cast<float>(line_direction_[static_cast<int>(axis)]);
+      for (std::size_t i = 0; i < points.size; ++i) points.at[axis][i] = slope * t[i];
+    }
+    return points;
   }
 
   template <typename Change>
@@ -246,6 +283,9 @@ class Machine {
   float* fields_;
   bool has_warps_;
   bool is_on_line_ = false;
+  Vec3 line_direction_{0};
+  std::size_t noise_fields_ = 0;       // the slot of noises, behind all fields
+  const SolidNoise* noise_ = nullptr;  // whose values stand there
 };
 
 // The grid point next to a point, about which it is evaluated.
@@ -293,8 +333,7 @@ class OriginGroups {
 std::size_t batch_size(const FieldProgram& program, std::size_t points, bool gradients) {
   constexpr std::size_t kLargestBatch = 768;
   constexpr std::size_t kScratchNumbers = std::size_t{1} << 16;
-  const FieldProgramDepth depth = depth_of(program);
-  const std::size_t columns = 3 * (depth.warps + 1) + (gradients ? 4 : 1) * depth.fields;
+  const std::size_t columns = column_count(depth_of(program), gradients);
   return padded(std::clamp<std::size_t>(kScratchNumbers / columns, 1, std::min(kLargestBatch, points)));
 }
 
@@ -311,6 +350,9 @@ FieldProgramDepth depth_of(const FieldProgram& program) {
         ++fields;
         break;
       case Op::kNegate:
+        break;
+      case Op::kDisplace:
+        deepest.displaces = true;
         break;
       case Op::kEnterWarp:
         ++warps;

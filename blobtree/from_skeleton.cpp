@@ -50,7 +50,9 @@ class TreeBuilder {
       if (plant_.scar_of(i)) continue;
       Summands subtree = join(static_cast<InternodeId>(i), plant_.children_of(i));
       const NodeId internode = plant_.add_primitive(tree_, i);
-      primitives_[i] = tree_.nodes[internode].children.empty() ? internode : tree_.nodes[internode].children[0];
+      NodeId primitive = internode;
+      while (!tree_.nodes[primitive].children.empty()) primitive = tree_.nodes[primitive].children[0];
+      primitives_[i] = primitive;
       if (plant_.is_united(i) && subtree.count > 0) {
         const NodeId carried = as_node(subtree);
         subtree = single(tree_.add(Union{}, {internode, carried}));
@@ -86,11 +88,11 @@ class TreeBuilder {
   }
 
  private:
-  // A primitive and perhaps a bend for every internode, and again with a sum where blending ends; a union and a
-  // sum where it is united with what it carries; a contact where branches touch, and a sum for each of several
-  // internodes; what joins the roots.
+  // A primitive and perhaps a bend and a displacement for every internode, and again with a sum where blending ends; a
+  // union and a sum where it is united with what it carries; a contact where branches touch, and a sum for each of
+  // several internodes; what joins the roots.
   std::size_t most_nodes() const {
-    const std::size_t for_each = plant_.has_arcs() ? 2 : 1;
+    const std::size_t for_each = 1 + (plant_.has_arcs() ? 1 : 0) + (plant_.is_displaced() ? 1 : 0);
     std::size_t most = plant_.size() * for_each;
     for (std::size_t i = 0; i < plant_.size(); ++i) {
       most += (is_split_[i] ? for_each + 1 : 0) + (plant_.is_united(i) ? 2 : 0);

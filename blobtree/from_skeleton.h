@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "blobtree/ridge_rules.h"
@@ -52,6 +53,22 @@ struct TipRule {
   double length = 5;  ///< from the internode's tip, in radii there; at least kShortestTip
 };
 
+/// Moves the surface of thick branches in and out, as furrowed bark does. Twigs are too young for that: the amount
+/// falls to nothing from 1.6 to 0.55 of `furrowed_radius`, by an internode's mean radius. [docs/field.md,
+/// "Displacement"]
+struct DisplacementOptions {
+  double amount = 0;  ///< that of Displacement, in [0, 0.5), so that no axis is laid open; 0 for none
+  /// Those of SolidNoise. Without a wavelength it is kFurrowWidth of the thickest branch's radius.
+  std::optional<double> wavelength;
+  double stretch = 5;
+  int octaves = 3;
+  bool ridged = true;
+  int seed = 0;
+  /// Radius of branches of which half the amount is left, or so; without it half the thickest branch's.
+  std::optional<double> furrowed_radius;
+};
+inline constexpr double kFurrowWidth = 0.4;
+
 struct TreeOptions {
   JunctionKind junction = JunctionKind::kRidge;
   JointKind joint = JointKind::kFaded;
@@ -69,6 +86,8 @@ struct TreeOptions {
   /// Of several rules for an internode the last one counts; without one the angle above, or a round tip.
   std::vector<BendRule> bends;
   std::vector<TipRule> tips;
+  /// Of the internodes' own fields: contacts join displaced branches, and what is cut off stays plane.
+  DisplacementOptions displacement;
 };
 
 /// The BlobTree of a plant: F(A) = F_A + J(F(B_1), .., F(B_m)) for an internode A that carries B_1 .. B_m, J being

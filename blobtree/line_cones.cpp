@@ -313,15 +313,17 @@ class Meeter {
     for (std::size_t i = 0; i < primitives_.size(); ++i) {
       const Met& met = met_[i];
       if (met.met == 0) continue;
-      if (model_.takes_away && only_takes_away(model_, model_.sum_of(primitives_[i]))) continue;
+      const std::uint32_t sum = model_.sum_of(primitives_[i]);
+      if (model_.takes_away && only_takes_away(model_, sum)) continue;
+      const auto gain = static_cast<double>(model_.operators[sum].gain);
       for_each_lane(met.met, [&](std::size_t lane) {
         if (met.what == Met::What::kCone) {
-          highest[lane] += static_cast<double>(met.highest[lane]);
+          highest[lane] += gain * static_cast<double>(met.highest[lane]);
           lo[lane] = std::min(lo[lane], static_cast<double>(met.lo[lane]));
           hi[lane] = std::max(hi[lane], static_cast<double>(met.hi[lane]));
         } else {
           const bool is_bounded = met.what == Met::What::kConeInBox;
-          highest[lane] += is_bounded ? met.in_box.value.hi : std::numeric_limits<double>::infinity();
+          highest[lane] += is_bounded ? gain * met.in_box.value.hi : std::numeric_limits<double>::infinity();
           lo[lane] = -1;
           hi[lane] = 1;
         }

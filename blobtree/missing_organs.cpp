@@ -17,16 +17,6 @@ namespace {
 
 using Ids = std::vector<std::uint32_t>;
 
-// The normalised distance at which the falloff has a value in [0, 1].
-double distance_of(double value) {
-  double lo = 0, hi = 1;
-  for (int i = 0; i < 50; ++i) {
-    const double middle = 0.5 * (lo + hi);
-    (falloff(middle * middle) > value ? lo : hi) = middle;
-  }
-  return hi;
-}
-
 double value_at(const Field& field, const Vec3& p) {
   double value = 0;
   field.values({&p, 1}, {&value, 1});
@@ -139,7 +129,7 @@ class Carver {
 
     const double radius = a.base_radius, top = scar.shape.stub * radius;
     const double missing = std::clamp(kIsoValue - value_at(*bark, place->at(top)), 0.0, kIsoValue);
-    const Vec3 center = place->at(top - 2 * radius * distance_of(missing));
+    const Vec3 center = place->at(top - 2 * radius * falloff_distance(missing));
     const Cone stub{center, center, radius, radius};
     carvings_.nodes.push_back({a.parent, Carving::Kind::kAdded, tree_.add(stub)});
     touch(static_cast<std::uint32_t>(a.parent), a.parent);
@@ -201,7 +191,7 @@ class Carver {
     for (std::size_t count = 1;; ++count) {
       const double share = excess / static_cast<double>(count);
       if (share >= 1) continue;
-      const double radius = 0.5 * depth / (2 * distance_of(share));
+      const double radius = 0.5 * depth / (2 * falloff_distance(share));
       const bool fits = 2 * radius <= width && 2 * radius <= 0.75 * (carrier + top - 0.5 * depth);
       if (fits)
         return std::vector<Disc>(count, {place.at(top - 0.5 * depth), place.normal, width - 2 * radius, radius});

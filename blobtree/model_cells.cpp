@@ -18,21 +18,20 @@ namespace {
 
 using ModelPtr = std::shared_ptr<const FieldModel>;
 
-// Where no operator makes more of its operands than their sum, and k primitives matter at a point of the solid, the
-// strongest of them has at least the k-th part of the iso-value there: the point is within that one's level of this
-// normalised distance.
+// Where no operator makes more of its operands than their sum, times the gain of displacements, and k primitives matter
+// at a point of the solid, the strongest of them has, times its gain, at least the k-th part of the iso-value there:
+// the point is within that one's level of this normalised distance.
 constexpr std::size_t kMostCounted = 32;
 
+double level_distance(std::size_t count, double gain) {
+  constexpr double kRounding = 1e-5;
+  return falloff_distance(kIsoValue / (static_cast<double>(count) * gain)) * (1 + kRounding);
+}
+
+// Without displacements.
 std::array<double, kMostCounted + 1> level_distances() {
   std::array<double, kMostCounted + 1> distances{};
-  for (std::size_t k = 1; k <= kMostCounted; ++k) {
-    double lo = 0, hi = 1;
-    for (int i = 0; i < 40; ++i) {
-      const double middle = 0.5 * (lo + hi);
-      (falloff(middle * middle) < kIsoValue / static_cast<double>(k) ? hi : lo) = middle;
-    }
-    distances[k] = hi * (1 + 1e-5);
-  }
+  for (std::size_t k = 1; k <= kMostCounted; ++k) distances[k] = level_distance(k, 1);
   return distances;
 }
 
@@ -154,7 +153,9 @@ class Planner {
         return add_piece(sum, tube, middle, to, plan);
       }
       if (reaching_.size() > kMostCounted) break;
-      cylinder = cylinder_of(model_, sum, tube, kDistances[std::max<std::size_t>(1, reaching_.size())], from, to);
+      const std::size_t count = std::max<std::size_t>(1, reaching_.size());
+      const auto gain = static_cast<double>(model_.operators[sum].gain);
+      cylinder = cylinder_of(model_, sum, tube, gain > 1 ? level_distance(count, gain) : kDistances[count], from, to);
     }
     if (cylinder) add(*cylinder, plan);
   }
@@ -229,17 +230,19 @@ struct Search {
     meet(model, primitives, bundle, rays, parts, meeting);
     rays = meeting.rays;
     if (rays == 0) return 0;
-    // Under warps only short pieces have good bounds.
+    // Under warps and displacements only short pieces have good bounds.
     constexpr double kMuchShorter = 0.7, kMostVariation = 24;
     const double length = longest(rays, meeting.reach);
-    const bool may_shorten = !model.warps.empty() && length > 2 * tolerance;
+    const bool is_displaced = !model.displacements.empty();
+    const bool may_shorten = (is_displaced || !model.warps.empty()) && length > 2 * tolerance;
     const RayRanges reach = meeting.reach;
     if (may_shorten && length < kMuchShorter * longest(rays, parts)) return run(rays, reach);
     thread_local FieldProgram met, rest;
     assemble(model, meeting.primitives, met);
     const FieldBounds bounds = bound_along(model, met, meeting, bundle, rest);
     if (bounds.value.hi < kIsoValue) return 0;
-    if (may_shorten && std::isinf(bounds.second.lo) && bounds.slope * length > kMostVariation) {
+    const bool has_poor_bounds = is_displaced || std::isinf(bounds.second.lo);
+    if (may_shorten && has_poor_bounds && bounds.slope * length > kMostVariation) {
       RayRanges half = reach;
       for (std::size_t i = 0; i < RayRanges::kWidth; ++i) half.hi[i] = 0.5 * (reach.lo[i] + reach.hi[i]);
       const RayLanes first = run(rays, half);

@@ -34,6 +34,8 @@ inline constexpr std::string_view kNodeName<Negative> = "negative";
 template <>
 inline constexpr std::string_view kNodeName<Contact> = "contact";
 template <>
+inline constexpr std::string_view kNodeName<Displacement> = "displacement";
+template <>
 inline constexpr std::string_view kNodeName<Bend> = "bend";
 template <>
 inline constexpr std::string_view kNodeName<Twist> = "twist";
@@ -74,6 +76,13 @@ void for_each_field(T& node, Field field) {
     field("width", node.shape.width);
     field("swelling", node.shape.swelling);
     field("allow_large_swelling", node.shape.allow_large_swelling);
+  } else if constexpr (std::is_same_v<Kind, Displacement>) {
+    field("amount", node.amount);
+    field("wavelength", node.noise.wavelength);
+    field("stretch", node.noise.stretch);
+    field("octaves", node.noise.octaves);
+    field("ridged", node.noise.ridged);
+    field("seed", node.noise.seed);
   } else if constexpr (std::is_same_v<Kind, Bend>) {
     field("base", node.base);
     field("tip", node.tip);

@@ -38,6 +38,14 @@ double slope_of_choice(std::span<const FieldBounds> children, Possible possible)
   return slope;
 }
 
+// Of numbers in two ranges. What is unbounded times nothing is nothing.
+Interval product(const Interval& a, const Interval& b) {
+  const auto times = [](double x, double y) { return x == 0 || y == 0 ? 0.0 : x * y; };
+  const double corners[] = {times(a.lo, b.lo), times(a.lo, b.hi), times(a.hi, b.lo), times(a.hi, b.hi)};
+  const auto [lo, hi] = std::minmax_element(std::begin(corners), std::end(corners));
+  return {*lo, *hi};
+}
+
 double lowest_second(std::span<const FieldBounds> children) {
   double lowest = 0;
   for (const FieldBounds& child : children) lowest = std::min(lowest, child.second.lo);
@@ -60,6 +68,21 @@ FieldBounds through_warp(FieldBounds bounds, double stretch, double curvature, d
   bounds.kink = stretch * bounds.kink + bounds.slope * jump;
   bounds.slope *= stretch;
   return bounds;
+}
+
+FieldBounds displaced(const FieldBounds& field, double amount, const FieldBounds& noise) {
+  const Interval factor{1 + amount * noise.value.lo, 1 + amount * noise.value.hi};
+  const double steepness = amount * noise.slope;
+  FieldBounds result;
+  result.value = product(field.value, factor);
+  result.slope = field.slope * factor.hi + product({0, steepness}, {0, std::max(-field.value.lo, field.value.hi)}).hi;
+  // F'' (1 + a n) + 2 a F' n' + a F n''
+  const Interval bent = product(field.second, factor);
+  const Interval by_noise = product(field.value, {amount * noise.second.lo, amount * noise.second.hi});
+  const double mixed = 2 * product({0, field.slope}, {0, steepness}).hi;
+  result.second = {bent.lo - mixed + by_noise.lo, bent.hi + mixed + by_noise.hi};
+  result.kink = field.kink * factor.hi;
+  return result;
 }
 
 FieldBounds bounds_of(const Sum&, std::span<const FieldBounds> children) {

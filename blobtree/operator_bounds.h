@@ -23,6 +23,9 @@ inline void add(FieldBounds& sum, const FieldBounds& summand) {
 /// where w' jumps so does (F o w)', by F' along the jump.
 FieldBounds through_warp(FieldBounds bounds, double stretch, double curvature, double jump);
 
+/// Those of F (1 + amount n) from those of F and n.
+FieldBounds displaced(const FieldBounds& field, double amount, const FieldBounds& noise);
+
 FieldBounds bounds_of(const Sum&, std::span<const FieldBounds> children);
 FieldBounds bounds_of(const Ricci& ricci, std::span<const FieldBounds> children);
 FieldBounds bounds_of(const Union&, std::span<const FieldBounds> children);

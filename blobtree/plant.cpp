@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/graded.h"
 
 namespace barkridge {
 
@@ -103,6 +104,7 @@ Plant::Plant(const Skeleton& skeleton, std::span<const Arc> arcs, const TreeOpti
   };
   require_bare(skeleton.cut_ends, "a cut end");
   require_bare(skeleton.scars, "a scar");
+  plan_displacement();
   for (const Scar& scar : skeleton.scars) {
     check(scar.shape);
     const auto i = static_cast<std::size_t>(scar.internode);
@@ -134,6 +136,28 @@ Neighbourhood Plant::neighbourhood_of(std::size_t i) const {
   return near;
 }
 
+void Plant::plan_displacement() {
+  const DisplacementOptions& stated = options_.displacement;
+  if (!(0 <= stated.amount && stated.amount < 0.5)) {
+    throw InputError(fmt::format("displacement {} is outside its range: 0 <= amount < 0.5", stated.amount));
+  }
+  if (stated.amount == 0) return;
+  double thickest = 0;
+  for (const Internode& a : skeleton_.internodes) thickest = std::max({thickest, a.base_radius, a.tip_radius});
+  if (thickest == 0) return;
+  noise_ = {stated.wavelength.value_or(kFurrowWidth * thickest), stated.stretch, stated.octaves, stated.ridged,
+            stated.seed};
+  check(Node{Displacement{stated.amount, noise_}, {0}});
+  furrowed_radius_ = stated.furrowed_radius.value_or(0.5 * thickest);
+  if (!(furrowed_radius_ > 0)) throw InputError("displacement: furrowed_radius must be above zero");
+}
+
+double Plant::displacement_of(const Internode& a) const {
+  if (!is_displaced()) return 0;
+  const double radius = 0.5 * (a.base_radius + a.tip_radius);
+  return options_.displacement.amount * smooth_step(0.55, 1.6, radius / furrowed_radius_).value;
+}
+
 std::variant<Cone, FadedCone> Plant::primitive(std::size_t i) const {
   const Internode& a = internode(i);
   const Neighbourhood near = neighbourhood_of(i);
@@ -151,7 +175,10 @@ std::variant<Cone, FadedCone> Plant::primitive(std::size_t i) const {
 }
 
 NodeId Plant::add_primitive(BlobTree& tree, std::size_t i) const {
-  return std::visit([&](const auto& shape) { return add_bent(tree, shape, internode(i), arc(i)); }, primitive(i));
+  const Internode& a = internode(i);
+  const NodeId whole = std::visit([&](const auto& shape) { return add_bent(tree, shape, a, arc(i)); }, primitive(i));
+  const double amount = displacement_of(a);
+  return amount > 0 ? tree.add(Displacement{amount, noise_}, {whole}) : whole;
 }
 
 double length_past_cut(const Internode& internode, const Vec3& axis, const CutEnd& end) {

@@ -10,6 +10,7 @@
 #include "blobtree/operator_bounds.h"
 #include "blobtree/primitive.h"
 #include "blobtree/primitive_bounds.h"
+#include "blobtree/solid_noise.h"
 #include "blobtree/warp.h"
 
 namespace barkridge {
@@ -94,6 +95,11 @@ FieldSample combine(const Contact& contact, Children children) {
     result.gradient = clamped ? Vec3(0) : highest->gradient - compression.gradient;
   }
   return {result.value + expansion.value, result.gradient + expansion.gradient};
+}
+
+FieldSample displaced(const FieldSample& child, double amount, const Graded& noise) {
+  const double factor = 1 + amount * noise.value;
+  return {child.value * factor, child.gradient * factor + child.value * amount * noise.slope};
 }
 
 class ReferenceField final : public Field {
@@ -185,6 +191,8 @@ class ReferenceField final : public Field {
   FieldSample node_sample(const What& what, NodeId id, const Vec3& p, Children children) const {
     if constexpr (requires { combine(what, children); }) {
       return combine(what, children);
+    } else if constexpr (std::is_same_v<What, Displacement>) {
+      return displaced(children[0], what.amount, sample(what.noise, p));
     } else if constexpr (std::is_same_v<What, Bend> || std::is_constructible_v<Warp, What>) {
       // Transposed Jacobian times gradient.
       return {children[0].value, children[0].gradient * warps_[id]->map_with_jacobian(p).jacobian};
@@ -198,6 +206,8 @@ class ReferenceField final : public Field {
                           std::span<const FieldBounds> children) const {
     if constexpr (requires { bounds_of(what, children); }) {
       return bounds_of(what, children);
+    } else if constexpr (std::is_same_v<What, Displacement>) {
+      return displaced(children[0], what.amount, bounds_of(what.noise, box.center(), glm::length(box.half_extent())));
     } else if constexpr (std::is_same_v<What, Bend> || std::is_constructible_v<Warp, What>) {
       return {children[0].value, children[0].slope * boxes[tree_.nodes[id].children[0]].stretch};
     } else {

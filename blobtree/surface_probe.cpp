@@ -7,6 +7,7 @@
 #include "blobtree/contact.h"
 #include "blobtree/field_model.h"
 #include "blobtree/primitive.h"
+#include "blobtree/solid_noise.h"
 
 namespace barkridge {
 
@@ -75,6 +76,13 @@ class Walk {
       case Op::kNegate:
         negate(operands_.back());
         break;
+      case Op::kDisplace: {
+        const Displacement& displacement = model_.displacements[instruction.index];
+        const double factor = 1 + displacement.amount * noise_here(displacement.noise);
+        operands_.back().value *= factor;
+        operands_.back().deformation *= factor;
+        break;
+      }
       case Op::kSum:
         sum(instruction.count);
         break;
@@ -102,6 +110,15 @@ class Walk {
         places_.pop_back();
         break;
     }
+  }
+
+  // That at the point itself is kept, as most displacements share one noise.
+  double noise_here(const SolidNoise& noise) {
+    const bool is_warped = places_.size() > 1;
+    if (!is_warped && noise_ && *noise_ == noise) return noise_value_;
+    noise_ = is_warped ? nullptr : &noise;
+    noise_value_ = sample(noise, places_.back().point).value;
+    return noise_value_;
   }
 
   void push(std::uint32_t primitive) {
@@ -265,6 +282,8 @@ class Walk {
   std::vector<SurfaceShare>& shares_;
   std::vector<Operand>& operands_;
   std::vector<WarpedPlace>& places_;
+  const SolidNoise* noise_ = nullptr;  // whose value is kept
+  double noise_value_ = 0;
 };
 
 }  // namespace

@@ -39,21 +39,40 @@ struct PrimitiveRadius {
   }
 };
 
-}  // namespace
+struct FinestWavelength {
+  double operator()(const Displacement& d) const {
+    return d.noise.wavelength * std::min(1.0, d.noise.stretch) / std::exp2(d.noise.octaves - 1);
+  }
+  template <typename Other>
+  double operator()(const Other&) const {
+    return std::numeric_limits<double>::infinity();
+  }
+};
 
-double thinnest_radius(const BlobTree& tree) {
+// The smallest of the sizes of nodes that the root reaches, each scaled by the nodes above it.
+template <typename Size>
+double smallest_scaled(const BlobTree& tree, Size size) {
   // From the root down, for parents come after their children; 0 marks what the root does not reach.
   std::vector<double> scale;
   resize_large(scale, tree.nodes.size());
   if (!scale.empty()) scale[tree.root] = 1;
-  double thinnest = std::numeric_limits<double>::infinity();
+  double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t i = tree.nodes.size(); i-- > 0;) {
     if (scale[i] == 0) continue;
     const Node& node = tree.nodes[i];
-    thinnest = std::min(thinnest, scale[i] * std::visit(PrimitiveRadius{}, node.what));
+    smallest = std::min(smallest, scale[i] * std::visit(size, node.what));
     for (const NodeId child : node.children) scale[child] = scale[i] * std::visit(SmallestScale{}, node.what);
   }
+  return smallest;
+}
+
+}  // namespace
+
+double thinnest_radius(const BlobTree& tree) {
+  const double thinnest = smallest_scaled(tree, PrimitiveRadius{});
   return std::isfinite(thinnest) ? thinnest : 0;
 }
+
+double finest_wavelength(const BlobTree& tree) { return smallest_scaled(tree, FinestWavelength{}); }
 
 }  // namespace barkridge

@@ -15,6 +15,7 @@ namespace barkridge {
 namespace {
 
 bool finite(bool) { return true; }
+bool finite(int) { return true; }
 bool finite(double x) { return std::isfinite(x); }
 bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 bool finite(const Mat3& m) { return finite(m[0]) && finite(m[1]) && finite(m[2]); }
@@ -72,6 +73,13 @@ void check_node(const Polygon& polygon) {
 }
 void check_node(const Ricci& ricci) { require(ricci.exponent >= 1, "exponent must be at least 1"); }
 void check_node(const Contact& contact) { check(contact.shape); }
+void check_node(const Displacement& displacement) {
+  require(0 <= displacement.amount && displacement.amount < 1, "amount must be at least 0 and below 1");
+  require(displacement.noise.wavelength > 0, "wavelength must be above zero");
+  require(displacement.noise.stretch > 0, "stretch must be above zero");
+  require(1 <= displacement.noise.octaves && displacement.noise.octaves <= kMostNoiseOctaves,
+          "octaves must be from 1 to 8");
+}
 void check_node(const Bend& bend) {
   require(is_direction(bend.tip - bend.base), "base and tip must differ");
   require(0 < bend.angle_degrees && bend.angle_degrees < 180, "angle_degrees must be above 0 and below 180");
@@ -98,6 +106,8 @@ void check_child_count(std::size_t count) {
   if constexpr (std::is_same_v<What, Bend> || std::is_same_v<What, Twist> || std::is_same_v<What, Taper> ||
                 std::is_same_v<What, Affine>) {
     require(count == 1, "a warp has exactly one child");
+  } else if constexpr (std::is_same_v<What, Displacement>) {
+    require(count == 1, "needs exactly one child");
   } else if constexpr (std::is_same_v<What, Difference> || std::is_same_v<What, Negative>) {
     require(count >= 2, "needs at least two children");
   } else if constexpr (std::is_same_v<What, Sum> || std::is_same_v<What, Ricci> || std::is_same_v<What, Union> ||

@@ -110,6 +110,27 @@ struct Contact {
   bool operator==(const Contact&) const = default;
 };
 
+inline constexpr int kMostNoiseOctaves = 8;
+/// Noise in space, from -1 to 1. [docs/field.md, "Displacement"]
+struct SolidNoise {
+  double wavelength = 1;  ///< > 0: the distance between neighbouring features of the first octave, in the plane y = 0
+  double stretch = 1;     ///< > 0: by how much they are longer along y
+  int octaves = 3;        ///< 1 to kMostNoiseOctaves, each of half the wavelength and a quarter of the height
+  bool ridged = false;    ///< narrow fissures between plateaus, instead of hills and valleys alike
+  int seed = 0;
+
+  bool operator==(const SolidNoise&) const = default;
+};
+
+/// Moves the surface of its one child, which may be any tree, in and out: F(p) (1 + amount n(p)) with solid noise n.
+/// [docs/field.md, "Displacement"]
+struct Displacement {
+  double amount = 0.25;  ///< in [0, 1); from 1/2 on it may lay open a primitive's very axis
+  SolidNoise noise;
+
+  bool operator==(const Displacement&) const = default;
+};
+
 // ---- Warps: F(w(p)), one child.
 
 /// Bends the child's axis, which starts at `base` towards `tip`, into a circular arc from `base` to `tip` that bulges
@@ -152,6 +173,7 @@ inline constexpr NodeId kNoNode = 0xffffffff;
 struct Node {
   std::variant<Cone, FadedCone, Disc, Ring, Polygon,                            //
                Sum, Ricci, Union, Intersection, Difference, Negative, Contact,  //
+               Displacement,                                                    //
                Bend, Twist, Taper, Affine>
       what;
   std::vector<NodeId> children;
@@ -184,6 +206,10 @@ std::size_t depth(const BlobTree& tree);
 /// The smallest surface radius among the primitives that the root reaches, what a mesh must resolve: scaled as tapers
 /// and affine nodes above it scale it at the most. 0 without primitives.
 double thinnest_radius(const BlobTree& tree);
+
+/// The shortest wavelength of an octave of all displacements that the root reaches, scaled likewise; infinite without
+/// one.
+double finest_wavelength(const BlobTree& tree);
 
 /// The text form, readable by `parse_tree`, which gives back an equal tree up to the numbers of its nodes:
 ///     sum {

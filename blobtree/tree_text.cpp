@@ -17,6 +17,7 @@ namespace {
 // ---- Writing.
 
 std::string text_of(bool value) { return value ? "true" : "false"; }
+std::string text_of(int x) { return fmt::format("{}", x); }
 std::string text_of(double x) { return fmt::format("{}", x); }
 std::string text_of(const Vec3& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); }
 std::string text_of(const Mat3& m) {  // by rows
@@ -128,16 +129,10 @@ class Parser {
     if (word != "true" && word != "false") fail(start, "expected true or false");
     value = word == "true";
   }
+  void read(int& value) { read_number(value, "expected an integer"); }
   void read(double& value) {
-    skip_blank();
-    const char* const begin = text_.data() + at_;
-    const char* const end = text_.data() + text_.size();
-    const char* const digits = begin < end && *begin == '+' ? begin + 1 : begin;
-    const auto [stop, error] = std::from_chars(digits, end, value);
-    if (error == std::errc::result_out_of_range) fail(at_, "this number is out of range");
-    if (error != std::errc()) fail(at_, "expected a number");
-    if (!std::isfinite(value)) fail(at_, "expected a finite number");
-    at_ += static_cast<std::size_t>(stop - begin);
+    const std::size_t start = read_number(value, "expected a number");
+    if (!std::isfinite(value)) fail(start, "expected a finite number");
   }
   void read(Vec3& v) {
     read(v.x);
@@ -154,6 +149,21 @@ class Parser {
     do {
       read(points.emplace_back());
     } while (take(';'));
+  }
+
+  // Returns where it stands.
+  template <typename Number>
+  std::size_t read_number(Number& value, const char* expected) {
+    skip_blank();
+    const std::size_t start = at_;
+    const char* const begin = text_.data() + at_;
+    const char* const end = text_.data() + text_.size();
+    const char* const digits = begin < end && *begin == '+' ? begin + 1 : begin;
+    const auto [stop, error] = std::from_chars(digits, end, value);
+    if (error == std::errc::result_out_of_range) fail(start, "this number is out of range");
+    if (error != std::errc()) fail(start, expected);
+    at_ += static_cast<std::size_t>(stop - begin);
+    return start;
   }
 
   template <typename What>

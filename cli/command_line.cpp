@@ -137,7 +137,7 @@ void add_verbs(CLI::App& app, Written& written) {
       "Writes what the mesh took, as JSON: seconds of each stage, triangles, peak of memory. Then -o may be left out");
   add(mesh, "--cell-size", written.cell_size, "H",
       "Edge length of the sampling cells in scene units (mesh.cell_size); by default half the thinnest branch's "
-      "radius");
+      "radius, and at most a quarter of the finest displacement's wavelength");
 
   mesh.add_flag("--attributes", written.attributes,
                 help("Adds texture coordinates, attributes of the vertices and, where bark is not plain, colours "

@@ -21,6 +21,7 @@ namespace barkridge {
 namespace {
 
 constexpr double kCellsPerThinnestRadius = 0.5;
+constexpr double kCellsPerFinestWave = 0.25;
 
 // Turtle and derivation know modules but not where the model stands: their errors get its name.
 template <typename Work>
@@ -154,7 +155,7 @@ double cell_size(const Scene& scene, const Model& model) {
   if (thinnest == 0) {
     throw InputError({scene.model.file, 0, 0, ""}, "the model is empty; expected mesh.cell_size, which nothing gives");
   }
-  return kCellsPerThinnestRadius * thinnest;
+  return std::min(kCellsPerThinnestRadius * thinnest, kCellsPerFinestWave * finest_wavelength(model.tree));
 }
 
 std::shared_ptr<const Field> framed_field(const Scene& scene, std::shared_ptr<const Field> field,

@@ -70,7 +70,8 @@ Model make_model(const Scene& scene, Skeleton skeleton);
 /// the most; 0 for an empty model.
 double thinnest_radius(const Model& model);
 
-/// The scene's cell size, or half the thinnest radius; half a grown tip's where the pipe model makes radii. Throws
+/// The scene's cell size, or half the thinnest radius; half a grown tip's where the pipe model makes radii; in either
+/// case at most a quarter of the finest wavelength of displacements. Throws
 /// `InputError` for a model without one that is empty, or growing by drawn widths, whose radii begin at 0.
 double cell_size(const Scene& scene, const Model& model);
 

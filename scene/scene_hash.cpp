@@ -81,8 +81,9 @@ void add_skeleton(Sha256& hash, const Skeleton& skeleton) {
 
 bool is_seen(std::string_view key) {
   if (key == "bark.image") return false;  // what stands there is
-  for (const std::string_view section : {"surface.", "junction.", "ridge", "bend.", "tip", "cut", "scar", "camera.",
-                                         "sun.", "sky.", "ground.", "material.", "bark.", "wood.", "texture."}) {
+  for (const std::string_view section :
+       {"surface.", "junction.", "ridge", "bend.", "tip", "displacement.", "cut", "scar", "camera.", "sun.", "sky.",
+        "ground.", "material.", "bark.", "wood.", "texture."}) {
     if (key.starts_with(section)) return true;
   }
   return false;

@@ -496,7 +496,9 @@ void add_surface_keys(Keys& keys) {
   add_ridge_keys(keys);
   keys.push_back(number(
       "mesh.cell_size", above(0), [](auto& s) -> auto& { return s.cell_size; },
-      "Edge length of the sampling cells. Left out, half the thinnest branch's radius."));
+      "Edge length of the sampling cells. Left out, half the thinnest branch's radius, and at most a quarter of the "
+      "finest "
+      "displacement's wavelength."));
   keys.push_back(integer(
       "mesh.max_triangles", 1, kMost, [](auto& s) -> auto& { return s.max_triangles; },
       "Most triangles. Left out, as many as the machine's memory holds."));
@@ -587,6 +589,31 @@ void add_axis_keys(Keys& keys) {
                   "Length of a point or bud, in tip radii."),
               tips));
   add_selection_keys(keys, "tip", tips, internodes, "last internodes", "");
+}
+
+void add_displacement_keys(Keys& keys) {
+  keys.push_back(number(
+      "displacement.amount", {0, 0.5, false, true}, [](auto& s) -> auto& { return s.tree.displacement.amount; },
+      "Share of its value by which noise raises and lowers the field of thick branches; 0 for smooth ones."));
+  keys.push_back(number(
+      "displacement.wavelength", above(0), [](auto& s) -> auto& { return s.tree.displacement.wavelength; },
+      "Distance between furrows. Left out, two fifths of the thickest branch's radius."));
+  keys.push_back(number(
+      "displacement.stretch", above(0), [](auto& s) -> auto& { return s.tree.displacement.stretch; },
+      "By how much furrows are longer along y than across."));
+  keys.push_back(integer(
+      "displacement.octaves", 1, kMostNoiseOctaves, [](auto& s) -> auto& { return s.tree.displacement.octaves; },
+      "Layers of noise, each half as wide and a quarter as deep as the one before."));
+  keys.push_back(flag(
+      "displacement.ridged", [](auto& s) -> auto& { return s.tree.displacement.ridged; },
+      "Whether there are narrow fissures between plateaus, instead of hills and valleys alike."));
+  keys.push_back(integer(
+      "displacement.seed", 0, std::numeric_limits<int>::max(),
+      [](auto& s) -> auto& { return s.tree.displacement.seed; }, "Seed of the noise."));
+  keys.push_back(number(
+      "displacement.furrowed_radius", above(0), [](auto& s) -> auto& { return s.tree.displacement.furrowed_radius; },
+      "Radius of branches that have half of it; thinner ones have less, down to none. Left out, half the thickest "
+      "branch's."));
 }
 
 void add_camera_keys(Keys& keys) {
@@ -748,6 +775,7 @@ Keys make_keys() {
   add_growth_keys(keys);
   add_missing_organ_keys(keys);
   add_axis_keys(keys);
+  add_displacement_keys(keys);
   add_surface_keys(keys);
   add_camera_keys(keys);
   add_light_keys(keys);

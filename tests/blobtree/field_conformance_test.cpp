@@ -151,6 +151,8 @@ TEST_CASE("between two points a field is no higher than its second derivative's 
       TreeOptions options;
       options.junction = seed % 2 ? JunctionKind::kRidge : JunctionKind::kSmooth;
       options.bend_angle_degrees = seed % 3 ? 0 : 30;
+      options.displacement.amount = seed % 3 ? 0 : 0.3;
+      options.displacement.ridged = seed % 2;
       const Skeleton skeleton = random_skeleton(static_cast<std::uint64_t>(seed), 2 + seed % 12);
       const auto field = make(tree_from_skeleton(skeleton, options));
       RandomSource random(8000 + static_cast<std::uint64_t>(seed));

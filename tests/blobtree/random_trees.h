@@ -36,7 +36,7 @@ inline Node random_primitive(RandomSource& random) {
 inline Node random_operator(RandomSource& random) {
   const Vec3 a = random.in_box({Vec3(-1), Vec3(1)});
   const Vec3 d = random.direction();
-  switch (random.integer(0, 11)) {
+  switch (random.integer(0, 12)) {
     case 0:
       return {Ricci{random.uniform(1, 6)}, {}};
     case 1:
@@ -64,6 +64,11 @@ inline Node random_operator(RandomSource& random) {
       Mat3 linear(random.direction(), random.direction(), random.direction());
       return {Affine{Mat3(1) + 0.3 * linear, 0.3 * random.direction()}, {}};
     }
+    case 11: {
+      SolidNoise noise{random.uniform(0.1, 2), random.uniform(0.5, 8), random.integer(1, 4), random.chance(0.5)};
+      noise.seed = random.integer(0, 1000);
+      return {Displacement{random.uniform(0, 0.9), noise}, {}};
+    }
     default:
       return {Sum{}, {}};
   }
@@ -83,9 +88,10 @@ inline BlobTree random_tree(std::uint64_t seed, int primitives) {
   };
   while (loose.size() > 1) {
     Node node = random_operator(random);
-    const bool is_warp = std::holds_alternative<Bend>(node.what) || std::holds_alternative<Twist>(node.what) ||
-                         std::holds_alternative<Taper>(node.what) || std::holds_alternative<Affine>(node.what);
-    const int count = is_warp ? 1 : random.integer(2, std::min<int>(4, static_cast<int>(loose.size())));
+    const bool has_one = std::holds_alternative<Displacement>(node.what) || std::holds_alternative<Bend>(node.what) ||
+                         std::holds_alternative<Twist>(node.what) || std::holds_alternative<Taper>(node.what) ||
+                         std::holds_alternative<Affine>(node.what);
+    const int count = has_one ? 1 : random.integer(2, std::min<int>(4, static_cast<int>(loose.size())));
     for (int k = 0; k < count; ++k) node.children.push_back(take());
     loose.push_back(tree.add(node.what, node.children));
   }

@@ -7,6 +7,7 @@
 #include "blobtree/contact.h"
 #include "blobtree/from_skeleton.h"
 #include "blobtree/primitive.h"
+#include "blobtree/solid_noise.h"
 #include "blobtree/warp.h"
 #include "tests/blobtree/random_trees.h"
 #include "tests/support/skeletons.h"
@@ -57,6 +58,12 @@ class Oracle {
       return of(tree_.nodes[id].children[0], Warp(what, {Vec3(-9), Vec3(9)}).map(p));
     } else if constexpr (std::is_constructible_v<Warp, What>) {
       return of(tree_.nodes[id].children[0], Warp(what).map(p));
+    } else if constexpr (std::is_same_v<What, Displacement>) {
+      Known known = of(tree_.nodes[id].children[0], p);
+      const double factor = 1 + what.amount * sample(what.noise, p).value;
+      known.value *= factor;
+      known.deformation *= factor;
+      return known;
     } else if constexpr (requires { join(what, children(id, p)); }) {
       return join(what, children(id, p));
     } else {

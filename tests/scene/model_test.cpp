@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <limits>
 
 #include "base/error.h"
 #include "scene/model_statistics.h"
@@ -102,6 +104,30 @@ TEST_CASE("an empty model has no cell size unless the scene gives one") {
   const std::vector<Override> overrides = {parse_override("mesh.cell_size=0.5")};
   const Scene with_size = load_scene(path, overrides);
   CHECK(cell_size(with_size, make_model(with_size)) == 0.5);
+}
+
+TEST_CASE("a scene displaces thick branches, and its cells resolve the finest wavelength") {
+  const ScratchFolder folder;
+  folder.write("a.skel", kFork);
+  const std::string path = folder.write("a.toml",
+                                        "model.skeleton = 'a.skel'\n[displacement]\namount = 0.2\n"
+                                        "wavelength = 0.08\noctaves = 3\nfurrowed_radius = 0.16\n");
+  const Scene scene = load_scene(path);
+  const Model model = make_model(scene);
+  // The branches' mean radii are less than 0.55 of furrowed_radius.
+  CHECK(std::count_if(model.tree.nodes.begin(), model.tree.nodes.end(),
+                      [](const Node& node) { return std::holds_alternative<Displacement>(node.what); }) == 1);
+  CHECK(cell_size(scene, model) == Approx(0.08 / 4 / 4));
+
+  const Scene smooth = load_scene(path, std::vector{parse_override("displacement.amount=0")});
+  CHECK(cell_size(smooth, make_model(smooth)) == Approx(0.04 / 2));
+  CHECK(finest_wavelength(make_model(smooth).tree) == std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE("a finest wavelength follows the scales above a displacement") {
+  const Model model = model_of_text(
+      "affine(linear = 0.5 0 0  0 1 0  0 0 1) { displacement(wavelength = 2, octaves = 2, stretch = 0.5) { cone() } }");
+  CHECK(finest_wavelength(model.tree) == Approx(0.5 * 2 * 0.5 / 2));
 }
 
 TEST_CASE("statistics count what the root reaches") {

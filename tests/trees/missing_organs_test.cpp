@@ -51,6 +51,7 @@ void check_trees(std::uint64_t first_seed, std::uint64_t count, int internodes) 
     options.junction = seed % 2 ? JunctionKind::kRidge : JunctionKind::kSmooth;
     options.blending = seed % 4 < 2 ? BlendingKind::kConfined : BlendingKind::kSubtrees;
     options.bend_angle_degrees = seed % 3 ? 0 : 30;
+    options.displacement.amount = seed % 4 ? 0 : 0.1;
     if (seed % 5 == 0) options.tips.push_back({{}, seed % 10 ? TipKind::kPointed : TipKind::kBud});
     PolygonizeOptions cells;
     cells.cell_size = thinnest_radius(skeleton) / 2;

@@ -80,12 +80,8 @@ void check_hit(const Ray& ray, const std::optional<Hit>& hit, double expected, d
   REQUIRE(glm::length(hit->normal) == Approx(1));
 }
 
-void shoot(const Skeleton& skeleton, JunctionKind junction, double bend_degrees, std::uint64_t seed, int rays,
-           Counts& counts) {
+void shoot(const Skeleton& skeleton, const TreeOptions& options, std::uint64_t seed, int rays, Counts& counts) {
   constexpr std::size_t kTogether = Tracer::kMostTogether;
-  TreeOptions options;
-  options.junction = junction;
-  options.bend_angle_degrees = bend_degrees;
   const auto field = compile(tree_from_skeleton(skeleton, options));
   const Tracer tracer(*field);
   March march{*field, {}, {}};
@@ -128,12 +124,16 @@ void shoot(const Skeleton& skeleton, JunctionKind junction, double bend_degrees,
   }
 }
 
-void shoot_at_trees(int trees, int rays_a_tree, int internodes) {
+void shoot_at_trees(int trees, int rays_a_tree, int internodes, double displacement = 0) {
   Counts counts;
   for (int i = 0; i < trees; ++i) {
     const auto seed = static_cast<std::uint64_t>(i);
-    shoot(random_skeleton(seed, internodes), i % 2 ? JunctionKind::kRidge : JunctionKind::kSmooth, i % 5 == 4 ? 25 : 0,
-          100 + seed, rays_a_tree, counts);
+    TreeOptions options;
+    options.junction = i % 2 ? JunctionKind::kRidge : JunctionKind::kSmooth;
+    options.bend_angle_degrees = i % 5 == 4 ? 25 : 0;
+    options.displacement.amount = displacement;
+    options.displacement.ridged = i % 4 < 2;
+    shoot(random_skeleton(seed, internodes), options, 100 + seed, rays_a_tree, counts);
   }
   CHECK(counts.hits > counts.rays / 4);
   CHECK(counts.hits < counts.rays);
@@ -145,6 +145,12 @@ void shoot_at_trees(int trees, int rays_a_tree, int internodes) {
 }  // namespace
 
 TEST_CASE("random rays meet random trees where a dense march says") { shoot_at_trees(20, 500, 14); }
+
+TEST_CASE("random rays meet displaced random trees where a dense march says") { shoot_at_trees(20, 300, 14, 0.4); }
+
+TEST_CASE("half a million random rays meet displaced random trees where a dense march says", "[long]") {
+  shoot_at_trees(50, 10000, 25, 0.4);
+}
 
 TEST_CASE("a million random rays meet random trees where a dense march says", "[long]") {
   shoot_at_trees(50, 20000, 25);

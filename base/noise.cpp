@@ -1,32 +1,18 @@
-#include "bark/noise.h"
+#include "base/noise.h"
 
-#include <array>
 #include <cmath>
-
-#include "base/random.h"
 
 namespace barkridge {
 
 namespace {
 
-// The middles of a cube's edges, from its centre.
-constexpr std::array<std::array<double, 3>, 12> kDirections{{{1, 1, 0},
-                                                             {-1, 1, 0},
-                                                             {1, -1, 0},
-                                                             {-1, -1, 0},
-                                                             {1, 0, 1},
-                                                             {-1, 0, 1},
-                                                             {1, 0, -1},
-                                                             {-1, 0, -1},
-                                                             {0, 1, 1},
-                                                             {0, -1, 1},
-                                                             {0, 1, -1},
-                                                             {0, -1, -1}}};
-
-Vec3 direction_at(const glm::i64vec3& cell, std::uint64_t seed) {
-  const std::uint64_t hash = hash_keys(seed, cell.x, cell.y, cell.z) >> 32;
-  const auto& d = kDirections[static_cast<std::size_t>(hash * kDirections.size() >> 32)];
-  return {d[0], d[1], d[2]};
+Vec3 direction_at(const glm::i64vec3& corner, std::uint32_t seed) {
+  const std::uint32_t hash = lattice_hash(static_cast<std::uint32_t>(corner.x), static_cast<std::uint32_t>(corner.y),
+                                          static_cast<std::uint32_t>(corner.z), seed);
+  const double first = hash >> 31 ? -1 : 1, second = hash >> 30 & 1 ? -1 : 1;
+  const std::uint32_t across = hash & 0xffff;
+  if (across < kAcrossZ) return {first, second, 0};
+  return across < kAcrossY ? Vec3(first, 0, second) : Vec3(0, first, second);
 }
 
 double fade(double t) { return t * t * t * (t * (6 * t - 15) + 10); }
@@ -35,6 +21,7 @@ double fade_slope(double t) { return 30 * t * t * (t - 1) * (t - 1); }
 }  // namespace
 
 Graded gradient_noise(const Vec3& p, std::uint64_t seed) {
+  const std::uint32_t lattice = lattice_seed(seed);
   const Vec3 floor(std::floor(p.x), std::floor(p.y), std::floor(p.z));
   const glm::i64vec3 cell(floor);
   const Vec3 t = p - floor;
@@ -42,7 +29,7 @@ Graded gradient_noise(const Vec3& p, std::uint64_t seed) {
   Graded sum;
   for (int corner = 0; corner < 8; ++corner) {
     const glm::i64vec3 at(corner & 1, corner >> 1 & 1, corner >> 2);
-    const Vec3 gradient = direction_at(cell + at, seed);
+    const Vec3 gradient = direction_at(cell + at, lattice);
     const double ramp = glm::dot(gradient, t - Vec3(at));
     Vec3 weight, weight_slope;
     for (int axis = 0; axis < 3; ++axis) {
