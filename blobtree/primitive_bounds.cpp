@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "blobtree/falloff.h"
 
@@ -91,8 +92,21 @@ Box support_of(const Polygon& polygon) {
   return grown(box, 2 * polygon.radius);
 }
 
+namespace {
+
+// Where two places of a shape are equally near, as on the axis of a ring, its field has a crease that points up. Of a
+// convex shape that is nowhere outside.
+FieldBounds with_creases(FieldBounds bounds) {
+  bounds.second.hi = std::numeric_limits<double>::infinity();
+  return bounds;
+}
+
+}  // namespace
+
 FieldBounds bounds_of(const Disc& disc, const Box& box) { return bounds_of_constant_radius(disc, box); }
-FieldBounds bounds_of(const Ring& ring, const Box& box) { return bounds_of_constant_radius(ring, box); }
-FieldBounds bounds_of(const Polygon& polygon, const Box& box) { return bounds_of_constant_radius(polygon, box); }
+FieldBounds bounds_of(const Ring& ring, const Box& box) { return with_creases(bounds_of_constant_radius(ring, box)); }
+FieldBounds bounds_of(const Polygon& polygon, const Box& box) {
+  return with_creases(bounds_of_constant_radius(polygon, box));
+}
 
 }  // namespace barkridge

@@ -297,3 +297,14 @@ TEST_CASE("a chain of a hundred thousand contacts needs no deep stack") {
     CHECK(at(*compiled, p).value == Approx(at(*reference, p).value).margin(1e-9));
   }
 }
+
+TEST_CASE("fields of rings and of polygons that are not convex may bend up without bound, those of discs may not") {
+  const Box around{Vec3(-0.5), Vec3(0.5)};
+  BlobTree ring, disc;
+  ring.add(Ring{{0, 0, 0}, {0, 1, 0}, 1, 0.8});
+  disc.add(Disc{{0, 0, 0}, {0, 1, 0}, 1, 0.8});
+  // Across the axis of a ring the nearest place jumps to the other side.
+  CHECK(std::isinf(compile(ring)->bounds(around).second.hi));
+  CHECK(std::isinf(reference_field(ring)->bounds(around).second.hi));
+  CHECK(std::isfinite(compile(disc)->bounds(around).second.hi));
+}
