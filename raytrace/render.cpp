@@ -27,8 +27,8 @@ constexpr int kTileSize = 128;
 constexpr int kFirstSamples = 4;
 // A pixel unlike a neighbour gets at least as many.
 constexpr int kEdgeSamples = 16;
-// Neighbours are sampled together, in squares of at most so many pixels a side: as many rays as a tracer takes at once.
-constexpr int kLargestBlock = 4;
+// Neighbours are sampled together, in squares of so many pixels a side.
+constexpr int kBlockSize = 4;
 // Both in display units, where 1 is white and eyes see differences alike: the standard error at which a pixel is done,
 // and the difference that makes neighbours unlike.
 constexpr double kNoiseGoal = 1.0 / 256;
@@ -114,7 +114,6 @@ class TileRenderer {
   TileRenderer(const Tracer& tracer, const RenderScene& scene, const RenderOptions& options, const PixelRegion& region)
       : options_(options),
         picture_(PixelRegion{0, 0, options.width, options.height}),
-        block_size_(kLargestBlock),
         camera_(scene.camera, options.width, options.height),
         path_(tracer, scene, camera_.footprint(), options.bounces),
         layout_(options.seed, options.width, options.height, options.samples_per_pixel),
@@ -163,22 +162,25 @@ class TileRenderer {
 
    private:
     PixelRange pixels_;
-    std::array<PixelSum, kLargestBlock * kLargestBlock> sums_;
+    std::array<PixelSum, kBlockSize * kBlockSize> sums_;
   };
 
   // Pixels are sampled in blocks of the whole picture, so that the rays that are traced together are the same ones
-  // whatever the region and the tiles.
+  // whatever the region and the tiles. Rows of blocks can be taken over by threads that have no tile left.
   template <typename Visit>
   void for_each_block(const PixelRange& pixels, const Visit& visit) const {
-    const int size = block_size_;
-    PixelRange(pixels.first / size, (pixels.last + size - 1) / size).for_each([&](int x, int y) {
-      visit(PixelRange(size * glm::ivec2(x, y), glm::min(size * glm::ivec2(x + 1, y + 1), picture_.last)));
+    const glm::ivec2 first = pixels.first / kBlockSize, last = (pixels.last + kBlockSize - 1) / kBlockSize;
+    tbb::parallel_for(first.y, last.y, [&](int row) {
+      for (int column = first.x; column < last.x; ++column) {
+        const glm::ivec2 corner = kBlockSize * glm::ivec2(column, row);
+        visit(PixelRange(corner, glm::min(corner + kBlockSize, picture_.last)));
+      }
     });
   }
 
   // The pixels whose first samples are needed for some: those of their blocks, and of the blocks beside these.
   PixelRange sampled_for(const PixelRange& pixels) const {
-    const int size = block_size_, margin = options_.samples_per_pixel > kFirstSamples ? size : 0;
+    const int size = kBlockSize, margin = options_.samples_per_pixel > kFirstSamples ? size : 0;
     return {glm::max(size * (pixels.first / size) - margin, glm::ivec2(0)),
             glm::min(size * ((pixels.last + size - 1) / size) + margin, picture_.last)};
   }
@@ -202,7 +204,7 @@ class TileRenderer {
     thread_local std::vector<Radiance> radiances;
     samples.clear();
     owners.clear();
-    std::array<std::optional<PixelSampler>, kLargestBlock * kLargestBlock> samplers;
+    std::array<std::optional<PixelSampler>, kBlockSize * kBlockSize> samplers;
     std::size_t pixel = 0;
     bool any = false;
     sums.for_each([&](PixelSum& sum, int x, int y) {
@@ -257,7 +259,6 @@ class TileRenderer {
 
   const RenderOptions& options_;
   PixelRange picture_;
-  int block_size_;
   CameraRays camera_;
   PathTracer path_;
   SampleLayout layout_;
