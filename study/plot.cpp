@@ -13,8 +13,8 @@ namespace barkridge {
 
 namespace {
 
-constexpr double kWidth = 640, kHeight = 420;
-constexpr double kLeft = 72, kRight = 170, kTop = 34, kBottom = 48;
+constexpr double kWidth = 680, kHeight = 420;
+constexpr double kLeft = 72, kRight = 210, kTop = 34, kBottom = 48;
 // Okabe and Ito's colours, which people tell apart who see few.
 constexpr std::array kColors{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
 
